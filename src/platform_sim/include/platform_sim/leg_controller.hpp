@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace platform_sim {
+
+/// Order: fl, fr, rl, rr; within a leg abduction, hip, knee.
+using LegVector = Eigen::Matrix<double, 12, 1>;
+
+/// All that a leg controller may know: encoders and inertial unit.
+struct LegObservation {
+  double time = 0.0;                                             ///< s
+  LegVector positions = LegVector::Zero();                       ///< rad
+  LegVector velocities = LegVector::Zero();                      ///< rad/s
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< base_link in world
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    ///< rad/s, in base_link
+};
+
+/// Locomotion controller of the quadruped, called at every physics step. It knows nothing of the
+/// arm, the platform or the task.
+class LegController {
+ public:
+  virtual ~LegController() = default;
+  /// Joint torques, Nm, before the limits of the motors.
+  [[nodiscard]] virtual LegVector torques(const LegObservation& observation) = 0;
+};
+
+}  // namespace platform_sim

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace platform_sim {
+
+/// A solid cuboid: pose of its centre in the platform frame, edge lengths along its axes, m.
+struct Cuboid {
+  Eigen::Isometry3d pose_in_platform = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+};
+
+/// Open box on a post, fixed to the platform. It opens toward platform -x; a tag is on the inside
+/// of its back wall, its face toward the opening. Platform frame: centre of the deck's surface,
+/// x forward, z up. Tag frame: origin at the tag's centre, x right, y up, z out of the printed
+/// face, as seen by a viewer in front. Lengths in metres.
+struct TargetBox {
+  Eigen::Vector3d tag_position_in_platform{0.89, 0.0, 1.30};
+  double tag_size = 0.10;  ///< edge of the tag's black border
+  double tag_above_box_centre = 0.07;
+  double inner_width = 0.30;  ///< along platform y and z
+  double inner_depth = 0.20;  ///< along platform x
+  double wall_thickness = 0.005;
+  double post_width = 0.06;  ///< square column from the deck to the box
+
+  /// Throws std::invalid_argument with name, value and bound.
+  void validate() const;
+
+  [[nodiscard]] Eigen::Isometry3d tag_in_platform() const;
+  /// Centre of the hollow of the box, axes parallel to the platform's.
+  [[nodiscard]] Eigen::Isometry3d box_in_platform() const;
+  /// Back, left, right, top, bottom.
+  [[nodiscard]] std::vector<Cuboid> walls() const;
+  [[nodiscard]] Cuboid post() const;
+};
+
+}  // namespace platform_sim

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform_sim/contacts.hpp"
+#include "platform_sim/frame_state.hpp"
+#include "platform_sim/target_box.hpp"
+
+namespace platform_sim {
+
+using ArmVector = Eigen::Matrix<double, 7, 1>;
+
+enum class ArmMode {
+  kServo,      ///< velocity-limited position servos, see command_arm()
+  kCompliant,  ///< gravity compensated and back-drivable, to be guided by the hand
+};
+
+struct WorldConfig {
+  std::string motion = "none";   ///< preset of PlatformMotion
+  std::string gait = "stand";    ///< one of gait_names()
+  std::uint64_t seed = 0;        ///< phase of the platform's motion
+  double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
+  double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
+  ArmMode arm_mode = ArmMode::kServo;
+  ArmVector arm_start = ArmVector::Zero();  ///< rad
+  double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
+  TargetBox target;
+
+  /// Throws std::invalid_argument with name, value and bound.
+  void validate() const;
+};
+
+/// Joints in the order of World::joint_names(): 12 of the legs, 7 of the arm.
+struct JointStates {
+  Eigen::VectorXd positions;   ///< rad
+  Eigen::VectorXd velocities;  ///< rad/s
+  Eigen::VectorXd efforts;     ///< Nm, torque of the motor
+};
+
+/// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform that carries
+/// an open box. Deterministic: two worlds built alike and stepped alike are bitwise equal. At time
+/// 0 the robot has settled and the platform is still.
+class World {
+ public:
+  /// Length of a physics step, s.
+  static constexpr double kTimeStep = 0.001;
+
+  /// Throws std::invalid_argument for a robot description that cannot be simulated or a bad config.
+  World(const std::string& urdf_xml, const WorldConfig& config);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  [[nodiscard]] static const std::vector<std::string>& gait_names();
+
+  /// Advances by kTimeStep.
+  void step();
+  [[nodiscard]] double time() const;
+
+  [[nodiscard]] const std::vector<std::string>& joint_names() const;
+  [[nodiscard]] JointStates joints() const;
+  /// State of any link of the robot description, frames without mass included, in world.
+  /// Throws std::invalid_argument if there is no such link.
+  [[nodiscard]] FrameState frame(const std::string& link) const;
+  [[nodiscard]] FrameState base() const;  ///< frame("base_link")
+  [[nodiscard]] FrameState platform() const;
+  [[nodiscard]] FrameState tag() const;
+  [[nodiscard]] const TargetBox& target() const;
+
+  /// Contacts since the last call, one per pair of links, in alphabetical order.
+  [[nodiscard]] std::vector<Contact> take_contacts();
+  /// The body is low, tipped over, or touches the platform.
+  [[nodiscard]] bool fallen() const;
+
+  /// Servo mode: set-point of the arm, held until the next one. The velocity is a feed-forward
+  /// that lapses 20 ms after the call, so that an arm without commands comes to rest.
+  void command_arm(const ArmVector& positions, const ArmVector& velocities);
+  /// Compliant mode: force, N, at the origin of j2s7s300_end_effector and torque, Nm, on the hand,
+  /// in world axes, held until the next call.
+  void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace platform_sim
