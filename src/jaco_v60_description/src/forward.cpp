@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "geometry.hpp"
+
+namespace jaco_v60_description {
+
+namespace {
+
+FixedTransform make_transform(double x, double y, double z, double roll, double pitch, double yaw) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return {(AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
+           AngleAxisd(roll, Vector3d::UnitX()))
+              .toRotationMatrix(),
+          Vector3d(x, y, z)};
+}
+
+JointLimits make_limits() {
+  constexpr double kDegree = kPi / 180.0;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  JointLimits limits;
+  limits.lower << -kEndless, 47.0, -kEndless, 30.0, -kEndless, 65.0, -kEndless;
+  limits.upper << kEndless, 313.0, kEndless, 330.0, kEndless, 295.0, kEndless;
+  limits.velocity << 36.0, 36.0, 36.0, 36.0, 48.0, 48.0, 48.0;
+  limits.lower *= kDegree;
+  limits.upper *= kDegree;
+  limits.velocity *= kDegree;
+  limits.effort << 40.0, 80.0, 40.0, 40.0, 20.0, 20.0, 20.0;
+  return limits;
+}
+
+}  // namespace
+
+const std::array<FixedTransform, 8>& joint_origins() {
+  static const std::array<FixedTransform, 8> kOrigins = {
+      make_transform(0.0, 0.0, 0.15675, 0.0, kPi, 0.0),
+      make_transform(0.0, 0.0016, -0.11875, -kPi / 2, 0.0, kPi),
+      make_transform(0.0, -0.205, 0.0, -kPi / 2, 0.0, 0.0),
+      make_transform(0.0, 0.0, -0.205, kPi / 2, 0.0, kPi),
+      make_transform(0.0, 0.2073, -0.0114, -kPi / 2, 0.0, kPi),
+      make_transform(0.0, 0.0, -0.10375, kPi / 2, 0.0, kPi),
+      make_transform(0.0, 0.10375, 0.0, -kPi / 2, 0.0, kPi),
+      make_transform(0.0, 0.0, -0.16, kPi, 0.0, kPi / 2)};
+  return kOrigins;
+}
+
+const JointLimits& jaco_joint_limits() {
+  static const JointLimits kLimits = make_limits();
+  return kLimits;
+}
+
+bool within_limits(const JointVector& q) {
+  const JointLimits& limits = jaco_joint_limits();
+  return (q.array() >= limits.lower.array()).all() && (q.array() <= limits.upper.array()).all();
+}
+
+double wrap_angle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * kPi);
+  return wrapped <= -kPi ? wrapped + 2.0 * kPi : wrapped;
+}
+
+Eigen::Vector3d shoulder_point(double q1) {
+  return {kShoulderOffset * std::sin(q1), kShoulderOffset * std::cos(q1), kShoulderHeight};
+}
+
+void check_finite(const JointVector& values, const char* name) {
+  for (int i = 0; i < 7; ++i) {
+    if (!std::isfinite(values[i])) {
+      throw std::invalid_argument(std::string(name) + "[" + std::to_string(i) +
+                                  "] = " + std::to_string(values[i]) + " is not finite");
+    }
+  }
+}
+
+Eigen::Isometry3d checked_pose(const Eigen::Isometry3d& pose) {
+  constexpr double kTolerance = 1e-6;
+  if (!pose.matrix().allFinite()) {
+    throw std::invalid_argument("pose has an entry that is not finite");
+  }
+  const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
+  const double deviation = (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (deviation > kTolerance || pose.linear().determinant() < 0.0) {
+    throw std::invalid_argument("rotation of pose deviates from orthonormal by " +
+                                std::to_string(deviation) + ", bound 1e-6, right-handed");
+  }
+  Eigen::Isometry3d result = pose;
+  result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  return result;
+}
+
+Frames link_frames(const JointVector& q) {
+  const auto& origins = joint_origins();
+  Frames frames;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < 7; ++i) {
+    position += rotation * origins[i].translation;
+    rotation *= origins[i].rotation;
+    const double c = std::cos(q[static_cast<Eigen::Index>(i)]);
+    const double s = std::sin(q[static_cast<Eigen::Index>(i)]);
+    const Eigen::Vector3d x = rotation.col(0);
+    const Eigen::Vector3d y = rotation.col(1);
+    rotation.col(0) = c * x + s * y;
+    rotation.col(1) = c * y - s * x;
+    frames.rotation[i] = rotation;
+    frames.origin[i] = position;
+  }
+  frames.end_effector.setIdentity();
+  frames.end_effector.translation() = position + rotation * origins[7].translation;
+  frames.end_effector.linear() = rotation * origins[7].rotation;
+  return frames;
+}
+
+Jacobian jacobian(const Frames& frames) {
+  Jacobian result;
+  for (std::size_t i = 0; i < 7; ++i) {
+    const Eigen::Vector3d axis = frames.rotation[i].col(2);
+    const auto column = static_cast<Eigen::Index>(i);
+    result.col(column).head<3>() =
+        axis.cross(frames.end_effector.translation() - frames.origin[i]);
+    result.col(column).tail<3>() = axis;
+  }
+  return result;
+}
+
+Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& from,
+                                            const Eigen::Isometry3d& to) {
+  Eigen::Matrix<double, 6, 1> difference;
+  difference.head<3>() = to.translation() - from.translation();
+  Eigen::Quaterniond rotation(to.linear() * from.linear().transpose());
+  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;
+  const double sine = rotation.vec().norm();
+  const double scale = sine > 1e-12 ? 2.0 * std::atan2(sine, rotation.w()) / sine : 2.0;
+  difference.tail<3>() = scale * rotation.vec();
+  return difference;
+}
+
+Eigen::Isometry3d forward(const JointVector& q) {
+  check_finite(q, "q");
+  return link_frames(q).end_effector;
+}
+
+Jacobian jacobian(const JointVector& q) {
+  check_finite(q, "q");
+  return jacobian(link_frames(q));
+}
+
+}  // namespace jaco_v60_description

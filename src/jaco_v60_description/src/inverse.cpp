@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Choice among the solutions of a pose.
+//   cost(q) = sum_i w_i (q_i - seed_i)^2 + limit_weight sum_{2,4,6} max(0, 1 - d_i / limit_margin)^2
+// First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost.
+// It passes the shoulder's singularity, where the arm angle's branches exchange. If that does not
+// end close by within limits, the closed form is sampled on the feasible arcs of every branch.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "arm_angle.hpp"
+#include "closed_form.hpp"
+
+namespace jaco_v60_description {
+
+namespace {
+
+class Cost {
+ public:
+  Cost(const JointVector& seed, const IkOptions& options) : seed_(seed), options_(options) {}
+
+  double value(const JointVector& q) const {
+    double sum = (q - seed_).cwiseAbs2().dot(options_.weight);
+    for (int i : {1, 3, 5}) {
+      const double depth = limit_depth(q, i);
+      sum += options_.limit_weight * depth * depth;
+    }
+    return sum;
+  }
+
+  // Half the downhill gradient.
+  JointVector descent(const JointVector& q) const {
+    JointVector result = options_.weight.cwiseProduct(seed_ - q);
+    for (int i : {1, 3, 5}) {
+      const double inward = q[i] < kPi ? 1.0 : -1.0;
+      result[i] += inward * options_.limit_weight * limit_depth(q, i) / options_.limit_margin;
+    }
+    return result;
+  }
+
+  // Half the second derivative along a direction.
+  double curvature(const JointVector& q, const JointVector& direction) const {
+    double sum = direction.cwiseAbs2().dot(options_.weight);
+    for (int i : {1, 3, 5}) {
+      if (limit_depth(q, i) == 0.0) continue;
+      const double slope = direction[i] / options_.limit_margin;
+      sum += options_.limit_weight * slope * slope;
+    }
+    return sum;
+  }
+
+  // Continuous joints in the turn nearest to the seed.
+  JointVector unwrapped(const JointVector& q) const {
+    JointVector result = normalized_angles(q);
+    for (int i : {0, 2, 4, 6}) result[i] = seed_[i] + wrap_angle(q[i] - seed_[i]);
+    return result;
+  }
+
+ private:
+  // 0 at the margin and inside it, 1 at the limit; the limits are symmetric about pi.
+  double limit_depth(const JointVector& q, int joint) const {
+    const double distance = jaco_joint_limits().upper[joint] - kPi - std::abs(q[joint] - kPi);
+    return std::max(0.0, 1.0 - distance / options_.limit_margin);
+  }
+
+  JointVector seed_;
+  IkOptions options_;
+};
+
+// `length` changed so little that q + length * direction keeps joints 2, 4, 6 within limits.
+double limited_length(const JointVector& q, const JointVector& direction, double length) {
+  constexpr double kInset = 1e-7;  // [rad], for the polish that follows
+  constexpr double kStill = 1e-6;
+  const JointLimits& limits = jaco_joint_limits();
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  for (int i : {1, 3, 5}) {
+    if (std::abs(direction[i]) < kStill) continue;
+    const double a = (limits.lower[i] + kInset - q[i]) / direction[i];
+    const double b = (limits.upper[i] - kInset - q[i]) / direction[i];
+    least = std::max(least, std::min(a, b));
+    most = std::min(most, std::max(a, b));
+  }
+  return least <= most ? std::clamp(length, least, most) : length;
+}
+
+// Sequential quadratic steps on min cost(q) subject to forward(q) = pose and the limits, then the
+// polish.
+bool descend(const Eigen::Isometry3d& pose, const Cost& cost, JointVector* q) {
+  constexpr int kIterations = 10;
+  constexpr double kSettled = 1e-8;     // [rad]
+  constexpr double kLargestStep = 0.3;  // [rad] in the norm of q
+  for (int i = 0; i < kIterations; ++i) {
+    const Frames frames = link_frames(*q);
+    const LeastStep least(jacobian(frames));
+    JointVector step = least.solve(pose_difference(frames.end_effector, pose));
+    if (step.norm() > kLargestStep) step *= kLargestStep / step.norm();
+    const JointVector moved = *q + step;
+    const JointVector direction = least.self_motion();
+    const double downhill =
+        direction.dot(cost.descent(moved)) / cost.curvature(moved, direction);
+    const double length = limited_length(moved, direction, downhill);
+    step += std::clamp(length, -kLargestStep, kLargestStep) * direction;
+    *q += step;
+    if (step.norm() < kSettled) break;
+  }
+  return polish(pose, q) && within_limits(*q);
+}
+
+struct Candidate {
+  double cost;
+  JointVector q;
+};
+
+void add_branches(const Eigen::Isometry3d& pose, double phi, int elbow, const Cost& cost,
+                  std::vector<Candidate>* candidates) {
+  for (int branch = 0; branch < kBranches; ++branch) {
+    if (elbow_of(branch) != elbow) continue;
+    const auto q = branch_solution(pose, phi, branch);
+    if (!q) continue;
+    const JointVector near = cost.unwrapped(*q);
+    candidates->push_back({cost.value(near), near});
+  }
+}
+
+// Arm angle of the seed's elbow on the pose's circle.
+double seed_arm_angle(const ElbowCircle& circle, const JointVector& seed) {
+  const Frames frames = link_frames(seed);
+  const Eigen::Vector3d elbow = frames.origin[3] - frames.origin[1];
+  return std::atan2(elbow.dot(circle.axes.ninety), elbow.dot(circle.axes.zero));
+}
+
+double nearest_in(const Arc& arc, double phi) {
+  const double centre = 0.5 * (arc.begin + arc.end);
+  return std::clamp(centre + wrap_angle(phi - centre), arc.begin, arc.end);
+}
+
+// On each feasible arc the angle nearest to the seed's, and `samples` more, evenly.
+std::vector<Candidate> sample_arcs(const Eigen::Isometry3d& pose, const ElbowCircle& circle,
+                                   double seed_phi, const Cost& cost, int samples) {
+  constexpr double kSlack = 0.01;  // covers the shoulder's offset, which the arcs neglect
+  std::vector<Candidate> candidates;
+  for (int elbow : {0, 1}) {
+    for (const Arc& arc : feasible_arcs(circle, elbow, pose.linear().col(2), kSlack)) {
+      add_branches(pose, nearest_in(arc, seed_phi), elbow, cost, &candidates);
+      for (int i = 0; i < samples; ++i) {
+        const double part = (i + 0.5) / samples;
+        add_branches(pose, arc.begin + part * (arc.end - arc.begin), elbow, cost, &candidates);
+      }
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  return candidates;
+}
+
+// The first candidates in order of cost that lead to a solution; of these the cheapest.
+std::optional<JointVector> best_solution(const Eigen::Isometry3d& pose, const Cost& cost,
+                                         const std::vector<Candidate>& candidates) {
+  constexpr int kCompared = 2;
+  std::optional<JointVector> best;
+  int found = 0;
+  for (const Candidate& candidate : candidates) {
+    JointVector exact = candidate.q;
+    const bool exact_solves = polish(pose, &exact) && within_limits(exact);
+    JointVector descended = candidate.q;
+    const bool descent_solves = descend(pose, cost, &descended);
+    if (!exact_solves && !descent_solves) continue;
+    const bool take_descended =
+        descent_solves && (!exact_solves || cost.value(descended) < cost.value(exact));
+    const JointVector q = cost.unwrapped(take_descended ? descended : exact);
+    if (!best || cost.value(q) < cost.value(*best)) best = q;
+    if (++found == kCompared) break;
+  }
+  return best;
+}
+
+IkResult result_of(IkStatus status, const JointVector& q, const Eigen::Isometry3d& pose) {
+  const PoseErrors errors = pose_errors(q, pose);
+  return {status, q, arm_angle(q), errors.position, errors.orientation};
+}
+
+}  // namespace
+
+void IkOptions::validate() const {
+  for (int i = 0; i < 7; ++i) {
+    if (!(std::isfinite(weight[i]) && weight[i] > 0.0)) {
+      throw std::invalid_argument("weight[" + std::to_string(i) +
+                                  "] = " + std::to_string(weight[i]) + " must be above 0");
+    }
+  }
+  if (!(std::isfinite(limit_margin) && limit_margin > 0.0)) {
+    throw std::invalid_argument("limit_margin = " + std::to_string(limit_margin) +
+                                " rad must be above 0");
+  }
+  if (!(std::isfinite(limit_weight) && limit_weight >= 0.0)) {
+    throw std::invalid_argument("limit_weight = " + std::to_string(limit_weight) +
+                                " rad^2 must not be below 0");
+  }
+}
+
+IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkOptions& options) {
+  constexpr double kNear = 0.35;  // [rad] of any joint
+  options.validate();
+  check_finite(seed, "seed");
+  const Eigen::Isometry3d target = checked_pose(pose);
+  const Cost cost(seed, options);
+
+  JointVector near = seed;
+  if (descend(target, cost, &near) && (near - seed).cwiseAbs().maxCoeff() < kNear) {
+    return result_of(IkStatus::kSolved, near, target);
+  }
+
+  const Eigen::Vector3d wrist = target.translation() - kToolLength * target.linear().col(2);
+  const auto circle =
+      elbow_circle(wrist - Eigen::Vector3d(0.0, 0.0, kShoulderHeight), kShoulderOffset);
+  if (!circle) return result_of(IkStatus::kOutOfReach, seed, target);
+
+  const double seed_phi = seed_arm_angle(*circle, seed);
+  for (const int samples : {1, 12}) {
+    const auto candidates = sample_arcs(target, *circle, seed_phi, cost, samples);
+    const auto q = best_solution(target, cost, candidates);
+    if (q) return result_of(IkStatus::kSolved, *q, target);
+  }
+  return result_of(IkStatus::kNoSolutionWithinLimits, seed, target);
+}
+
+}  // namespace jaco_v60_description
