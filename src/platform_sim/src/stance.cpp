@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stance.hpp"
+
+#include <Eigen/QR>
+
+namespace platform_sim {
+namespace {
+
+constexpr double kToeX = 0.31;                          // m
+constexpr double kToeY = 0.17;                          // m
+constexpr double kToeZ = -0.506;                        // m
+const Eigen::Vector3d kKneesBackward(0.0, 0.83, 1.65);  // rad, near the posture
+
+}  // namespace
+
+std::array<std::string, 12> leg_joint_names() {
+  std::array<std::string, 12> names;
+  auto name = names.begin();
+  for (const std::string leg : kLegNames) {
+    for (const char* joint : {"_abduction", "_hip", "_knee"}) *name++ = leg + joint;
+  }
+  return names;
+}
+
+Stance find_stance(const RigidTree& robot) {
+  Stance stance;
+  for (std::size_t i = 0; i < kLegNames.size(); ++i) {
+    const std::string leg = kLegNames[i];
+    const double front = leg[0] == 'f' ? 1.0 : -1.0;
+    const double left = leg[1] == 'l' ? 1.0 : -1.0;
+    stance.legs.emplace_back(robot, leg);
+    stance.toes_in_base[i] = Eigen::Vector3d(front * kToeX, left * kToeY, kToeZ);
+    stance.posture.segment<3>(static_cast<Eigen::Index>(3 * i)) =
+        stance.legs.back().angles(stance.toes_in_base[i], kKneesBackward);
+  }
+  return stance;
+}
+
+// Balance: sum f_i = weight, sum r_i x f_i = r_com x weight, f_i = f_i z; then the virtual work of
+// toe forces and of the legs' own weight gives the torques: tau = -J^T f - tau_gravity.
+LegVector standing_torques(const RobotModel& robot, const Stance& stance) {
+  const Eigen::Vector3d weight = robot.mass() * robot.gravity();
+  const Eigen::Isometry3d base = robot.frame("base_link").pose;
+  const Eigen::Vector3d centre = base.inverse() * robot.centre_of_mass();
+  Eigen::Matrix<double, 3, 4> balance;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d& toe = stance.toes_in_base[i];
+    balance.col(static_cast<Eigen::Index>(i)) << 1.0, toe.x() - centre.x(), toe.y() - centre.y();
+  }
+  const Eigen::Vector4d loads =
+      balance.completeOrthogonalDecomposition().solve(Eigen::Vector3d(weight.norm(), 0.0, 0.0));
+
+  const Eigen::VectorXd gravity = robot.gravity_torques();
+  const auto names = leg_joint_names();
+  LegVector torques;
+  for (Eigen::Index leg = 0; leg < 4; ++leg) {
+    const auto index = static_cast<std::size_t>(leg);
+    const Eigen::Vector3d angles = stance.posture.segment<3>(3 * leg);
+    const Eigen::Vector3d force = -loads[leg] * weight.normalized();
+    torques.segment<3>(3 * leg) = -stance.legs[index].jacobian(angles).transpose() * force;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const int body = robot.joint(names[i]).body;
+    torques[static_cast<Eigen::Index>(i)] -= gravity[body - 1];
+  }
+  return torques;
+}
+
+}  // namespace platform_sim

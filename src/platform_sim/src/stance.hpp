@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "leg_kinematics.hpp"
+#include "multibody_from_urdf.hpp"
+#include "platform_sim/leg_controller.hpp"
+
+namespace platform_sim {
+
+/// Prefixes of the legs' links and joints, in the order of LegVector.
+constexpr std::array<const char*, 4> kLegNames{"fl", "fr", "rl", "rr"};
+
+[[nodiscard]] std::array<std::string, 12> leg_joint_names();
+
+/// The measured standing posture of a Vision 60: toes at (+-0.31, +-0.17, -0.506) m in base_link.
+struct Stance {
+  std::vector<LegKinematics> legs;              ///< in the order of kLegNames
+  std::array<Eigen::Vector3d, 4> toes_in_base;  ///< m
+  LegVector posture;                            ///< rad
+};
+
+/// Throws std::invalid_argument if the robot has no such legs or they cannot reach.
+[[nodiscard]] Stance find_stance(const RigidTree& robot);
+
+/// Torques, Nm, that carry the robot at rest in its present posture, with vertical forces of
+/// least sum of squares at the toes. The deck is level.
+[[nodiscard]] LegVector standing_torques(const RobotModel& robot, const Stance& stance);
+
+}  // namespace platform_sim

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "platform_sim/target_box.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace platform_sim {
+namespace {
+
+void require_positive(const std::string& name, double value) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be above 0");
+}
+
+Cuboid cuboid_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
+  Cuboid cuboid;
+  cuboid.pose_in_platform.translation() = centre;
+  cuboid.size = size;
+  return cuboid;
+}
+
+}  // namespace
+
+void TargetBox::validate() const {
+  if (!tag_position_in_platform.allFinite()) {
+    throw std::invalid_argument("target.tag_position_in_platform is not finite");
+  }
+  require_positive("target.tag_size", tag_size);
+  require_positive("target.inner_width", inner_width);
+  require_positive("target.inner_depth", inner_depth);
+  require_positive("target.wall_thickness", wall_thickness);
+  require_positive("target.post_width", post_width);
+  const double reach = std::abs(tag_above_box_centre) + 0.5 * tag_size;
+  if (!(reach <= 0.5 * inner_width)) {
+    throw std::invalid_argument("target.tag_above_box_centre is " +
+                                std::to_string(tag_above_box_centre) +
+                                ", must keep the tag on the back wall of target.inner_width " +
+                                std::to_string(inner_width));
+  }
+  const double box_bottom =
+      tag_position_in_platform.z() - tag_above_box_centre - 0.5 * inner_width - wall_thickness;
+  require_positive("height of the target box over the platform", box_bottom);
+}
+
+Eigen::Isometry3d TargetBox::tag_in_platform() const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear().col(0) = -Eigen::Vector3d::UnitY();
+  pose.linear().col(1) = Eigen::Vector3d::UnitZ();
+  pose.linear().col(2) = -Eigen::Vector3d::UnitX();
+  pose.translation() = tag_position_in_platform;
+  return pose;
+}
+
+Eigen::Isometry3d TargetBox::box_in_platform() const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() =
+      tag_position_in_platform - Eigen::Vector3d(0.5 * inner_depth, 0.0, tag_above_box_centre);
+  return pose;
+}
+
+std::vector<Cuboid> TargetBox::walls() const {
+  const Eigen::Vector3d centre = box_in_platform().translation();
+  const double wall_offset = 0.5 * (inner_width + wall_thickness);
+  const double outer_width = inner_width + 2.0 * wall_thickness;
+  const Eigen::Vector3d back(0.5 * (inner_depth + wall_thickness), 0.0, 0.0);
+  const Eigen::Vector3d left(0.0, wall_offset, 0.0);
+  const Eigen::Vector3d top(0.0, 0.0, wall_offset);
+  const Eigen::Vector3d back_size(wall_thickness, outer_width, outer_width);
+  const Eigen::Vector3d side_size(inner_depth, wall_thickness, inner_width);
+  const Eigen::Vector3d lid_size(inner_depth, outer_width, wall_thickness);
+  return {cuboid_at(centre + back, back_size), cuboid_at(centre + left, side_size),
+          cuboid_at(centre - left, side_size), cuboid_at(centre + top, lid_size),
+          cuboid_at(centre - top, lid_size)};
+}
+
+Cuboid TargetBox::post() const {
+  const Eigen::Vector3d centre = box_in_platform().translation();
+  const double height = centre.z() - 0.5 * inner_width - wall_thickness;
+  const double x = tag_position_in_platform.x() + wall_thickness - 0.5 * post_width;
+  return cuboid_at({x, centre.y(), 0.5 * height}, {post_width, post_width, height});
+}
+
+}  // namespace platform_sim

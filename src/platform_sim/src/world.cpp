@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "platform_sim/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "arm_servo.hpp"
+#include "platform_sim/platform_motion.hpp"
+#include "stance.hpp"
+#include "stand_controller.hpp"
+
+namespace platform_sim {
+namespace {
+
+constexpr double kSettlingTime = 3.0;            // s
+const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);  // m
+constexpr double kFallenHeight = 0.30;           // m, base over the deck
+constexpr double kFallenTilt = 0.7;              // rad
+
+// A stiff contact with damping: a rigid one creeps.
+constexpr double kFootStiffness = 1e5;  // N/m
+constexpr double kFootDamping = 3e3;    // N s/m
+constexpr double kArmStiffness = 2e4;
+constexpr double kArmDamping = 2e2;
+
+const std::string kHandLink = "j2s7s300_end_effector";
+const std::string kArmLinkPrefix = "j2s7s300_link_";
+
+// Groups of what may touch what.
+enum Group : int { kDeck = 1, kTarget = 2, kBody = 4, kLegs = 8, kUpperArm = 16, kForearm = 32 };
+constexpr int kSurroundings = kDeck | kTarget;
+
+std::vector<std::string> arm_joint_names() {
+  std::vector<std::string> names;
+  for (int i = 1; i <= 7; ++i) names.push_back("j2s7s300_joint_" + std::to_string(i));
+  return names;
+}
+
+// Links 3 to 7 can reach body and legs, the ones before are always close to the body.
+RobotSurface robot_surface(const std::string& body, double friction) {
+  if (body.compare(0, kArmLinkPrefix.size(), kArmLinkPrefix) == 0) {
+    const bool is_forearm = body.back() >= '3';
+    const CollisionFilter filter = is_forearm
+                                       ? CollisionFilter{kForearm, kSurroundings | kBody | kLegs}
+                                       : CollisionFilter{kUpperArm, kSurroundings};
+    return {"", filter, friction, kArmStiffness, kArmDamping};
+  }
+  if (body == "base_link") {
+    return {"body", {kBody, kSurroundings | kForearm}, friction, kFootStiffness, kFootDamping};
+  }
+  return {"", {kLegs, kSurroundings | kForearm}, friction, kFootStiffness, kFootDamping};
+}
+
+std::vector<CuboidBody::Part> to_parts(const std::vector<Cuboid>& cuboids) {
+  std::vector<CuboidBody::Part> parts;
+  for (const Cuboid& cuboid : cuboids) parts.emplace_back(cuboid.pose_in_platform, cuboid.size);
+  return parts;
+}
+
+Cuboid deck_cuboid() {
+  Cuboid deck;
+  deck.pose_in_platform.translation().z() = -0.5 * kDeckSize.z();
+  deck.size = kDeckSize;
+  return deck;
+}
+
+void require_finite(const std::string& name, double value) {
+  if (!std::isfinite(value)) throw std::invalid_argument(name + " is not finite");
+}
+
+void require_between(const std::string& name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be from " +
+                              std::to_string(low) + " to " + std::to_string(high));
+}
+
+}  // namespace
+
+void WorldConfig::validate() const {
+  [[maybe_unused]] const PlatformMotion known_motion(motion);
+  const std::vector<std::string>& gaits = World::gait_names();
+  if (std::find(gaits.begin(), gaits.end(), gait) == gaits.end()) {
+    throw std::invalid_argument("gait is '" + gait + "', must be one of: stand");
+  }
+  require_between("friction", friction, 0.05, 2.0);
+  require_between("base_start_x", base_start_x, -0.4, 0.2);
+  require_between("servo_gain", servo_gain, 0.1, 200.0);
+  for (int i = 0; i < arm_start.size(); ++i) {
+    require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
+  }
+  target.validate();
+}
+
+class World::Impl {
+ public:
+  Impl(const std::string& urdf_xml, const WorldConfig& config);
+
+  void step();
+  void command_arm(const ArmVector& positions, const ArmVector& velocities);
+  void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+  [[nodiscard]] JointStates joints() const;
+  [[nodiscard]] FrameState attached_to_deck(const Eigen::Isometry3d& pose_in_platform) const;
+
+  [[nodiscard]] double time() const { return static_cast<double>(steps_) * kTimeStep; }
+  [[nodiscard]] const RobotModel& robot() const { return robot_; }
+  [[nodiscard]] const TargetBox& target() const { return target_; }
+  [[nodiscard]] const std::vector<std::string>& joint_names() const { return joint_names_; }
+  [[nodiscard]] bool fallen() const { return fallen_; }
+  ContactRecorder contacts;
+
+ private:
+  void place_robot(const WorldConfig& config);
+  void settle();
+  void drive_legs();
+  [[nodiscard]] LegObservation observe_legs() const;
+  void judge_fall(const std::vector<ContactPoint>& points);
+
+  PlatformMotion motion_;
+  TargetBox target_;
+  BulletScene scene_{kTimeStep};
+  CuboidBody deck_;
+  CuboidBody box_;
+  CuboidBody post_;
+  RobotModel robot_;
+  std::vector<std::string> joint_names_;
+  std::vector<const RobotJoint*> leg_joints_;
+  std::vector<const RobotJoint*> arm_joints_;
+  std::unique_ptr<LegController> legs_;
+  std::unique_ptr<ArmDrive> arm_;
+  ArmServo* servo_ = nullptr;          // arm_, in servo mode
+  CompliantArm* compliant_ = nullptr;  // arm_, in compliant mode
+  LegVector leg_efforts_ = LegVector::Zero();
+  std::int64_t steps_ = 0;
+  bool fallen_ = false;
+};
+
+World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
+    : motion_(config.motion, config.seed),
+      target_(config.target),
+      deck_(scene_, "platform", to_parts({deck_cuboid()}), 0.0, {kDeck, ~kSurroundings},
+            motion_.deck(0.0).pose),
+      box_(scene_, "box", to_parts(target_.walls()), 0.0, {kTarget, ~kSurroundings},
+           motion_.deck(0.0).pose),
+      post_(scene_, "post", to_parts({target_.post()}), 0.0, {kTarget, ~kSurroundings},
+            motion_.deck(0.0).pose),
+      robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
+             [&](const std::string& body) { return robot_surface(body, config.friction); }) {
+  for (const std::string& name : leg_joint_names()) {
+    leg_joints_.push_back(&robot_.joint(name));
+    joint_names_.push_back(name);
+  }
+  const std::vector<std::string> arm_joints = arm_joint_names();
+  for (const std::string& name : arm_joints) {
+    arm_joints_.push_back(&robot_.joint(name));
+    joint_names_.push_back(name);
+  }
+  place_robot(config);
+  if (config.arm_mode == ArmMode::kServo) {
+    auto servo = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain);
+    servo_ = servo.get();
+    arm_ = std::move(servo);
+  } else {
+    auto compliant = std::make_unique<CompliantArm>(scene_, robot_, arm_joints, kHandLink);
+    compliant_ = compliant.get();
+    arm_ = std::move(compliant);
+  }
+  settle();
+}
+
+void World::Impl::place_robot(const WorldConfig& config) {
+  for (std::size_t i = 0; i < arm_joints_.size(); ++i) {
+    const RobotJoint& joint = *arm_joints_[i];
+    const double position = config.arm_start[static_cast<Eigen::Index>(i)];
+    if (joint.has_position_limits) {
+      require_between("arm_start of joint " + joint.name, position, joint.lower, joint.upper);
+    }
+    robot_.set_position(joint, position);
+  }
+  const Stance stance = find_stance(robot_.tree());
+  for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
+    robot_.set_position(*leg_joints_[i], stance.posture[static_cast<Eigen::Index>(i)]);
+  }
+  const double height = robot_.sphere_radius("fl_toe") - stance.toes_in_base[0].z();
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
+  base.translation() = Eigen::Vector3d(config.base_start_x, 0.0, height);
+  robot_.set_base_pose(motion_.deck(0.0).pose * base);
+  robot_.update_poses();
+  legs_ = std::make_unique<StandController>(stance.posture, standing_torques(robot_, stance));
+}
+
+// The deck is at rest at times up to 0.
+void World::Impl::settle() {
+  const auto settling_steps = static_cast<std::int64_t>(std::lround(kSettlingTime / kTimeStep));
+  for (steps_ = -settling_steps; steps_ < 0;) step();
+  [[maybe_unused]] const auto settling_contacts = contacts.take();
+}
+
+void World::Impl::step() {
+  drive_legs();
+  arm_->update(time());
+  ++steps_;
+  const Eigen::Isometry3d deck = motion_.deck(time()).pose;
+  for (CuboidBody* body : {&deck_, &box_, &post_}) body->move_to(deck);
+  scene_.step();
+  const std::vector<ContactPoint> points = scene_.contact_points();
+  contacts.add_step(points);
+  judge_fall(points);
+}
+
+LegObservation World::Impl::observe_legs() const {
+  LegObservation observation;
+  observation.time = time();
+  for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
+    observation.positions[static_cast<Eigen::Index>(i)] = robot_.position(*leg_joints_[i]);
+    observation.velocities[static_cast<Eigen::Index>(i)] = robot_.velocity(*leg_joints_[i]);
+  }
+  const FrameState base = robot_.frame("base_link");
+  observation.attitude = Eigen::Quaterniond(base.pose.linear());
+  observation.angular_velocity = base.pose.linear().transpose() * base.angular;
+  return observation;
+}
+
+void World::Impl::drive_legs() {
+  leg_efforts_ = legs_->torques(observe_legs());
+  for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
+    const RobotJoint& joint = *leg_joints_[i];
+    double& effort = leg_efforts_[static_cast<Eigen::Index>(i)];
+    effort = std::clamp(effort, -joint.max_effort, joint.max_effort);
+    robot_.apply_torque(joint, effort);
+  }
+}
+
+void World::Impl::judge_fall(const std::vector<ContactPoint>& points) {
+  const Eigen::Isometry3d base_in_deck =
+      motion_.deck(time()).pose.inverse() * robot_.frame("base_link").pose;
+  const double tilt = std::acos(std::clamp(base_in_deck.linear()(2, 2), -1.0, 1.0));
+  const bool body_on_deck =
+      std::any_of(points.begin(), points.end(), [](const ContactPoint& point) {
+        return (point.link_a == "body" && point.link_b == "platform") ||
+               (point.link_a == "platform" && point.link_b == "body");
+      });
+  fallen_ = fallen_ || body_on_deck || tilt > kFallenTilt ||
+            base_in_deck.translation().z() < kFallenHeight;
+}
+
+void World::Impl::command_arm(const ArmVector& positions, const ArmVector& velocities) {
+  if (servo_ == nullptr) throw std::invalid_argument("command_arm needs arm_mode kServo");
+  if (!positions.allFinite() || !velocities.allFinite()) {
+    throw std::invalid_argument("command_arm: positions and velocities must be finite");
+  }
+  servo_->command(positions, velocities, time());
+}
+
+void World::Impl::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+  if (compliant_ == nullptr) {
+    throw std::invalid_argument("apply_hand_wrench needs arm_mode kCompliant");
+  }
+  if (!force.allFinite() || !torque.allFinite()) {
+    throw std::invalid_argument("apply_hand_wrench: force and torque must be finite");
+  }
+  compliant_->apply_hand_wrench(force, torque);
+}
+
+JointStates World::Impl::joints() const {
+  constexpr Eigen::Index kLegJoints = 12;
+  constexpr Eigen::Index kAllJoints = 19;
+  JointStates states;
+  states.positions.resize(kAllJoints);
+  states.velocities.resize(kAllJoints);
+  for (Eigen::Index i = 0; i < kAllJoints; ++i) {
+    const RobotJoint& joint = i < kLegJoints
+                                  ? *leg_joints_[static_cast<std::size_t>(i)]
+                                  : *arm_joints_[static_cast<std::size_t>(i - kLegJoints)];
+    states.positions[i] = robot_.position(joint);
+    states.velocities[i] = robot_.velocity(joint);
+  }
+  states.efforts.resize(kAllJoints);
+  states.efforts << leg_efforts_, arm_->efforts();
+  return states;
+}
+
+FrameState World::Impl::attached_to_deck(const Eigen::Isometry3d& pose_in_platform) const {
+  FrameState state = motion_.deck(time());
+  const Eigen::Vector3d lever = state.pose.linear() * pose_in_platform.translation();
+  state.linear += state.angular.cross(lever);
+  state.pose = state.pose * pose_in_platform;
+  return state;
+}
+
+World::World(const std::string& urdf_xml, const WorldConfig& config) {
+  config.validate();
+  impl_ = std::make_unique<Impl>(urdf_xml, config);
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const std::vector<std::string>& World::gait_names() {
+  static const std::vector<std::string> names{"stand"};
+  return names;
+}
+
+void World::step() { impl_->step(); }
+double World::time() const { return impl_->time(); }
+const std::vector<std::string>& World::joint_names() const { return impl_->joint_names(); }
+JointStates World::joints() const { return impl_->joints(); }
+FrameState World::frame(const std::string& link) const { return impl_->robot().frame(link); }
+FrameState World::base() const { return impl_->robot().frame("base_link"); }
+FrameState World::platform() const {
+  return impl_->attached_to_deck(Eigen::Isometry3d::Identity());
+}
+FrameState World::tag() const { return impl_->attached_to_deck(target().tag_in_platform()); }
+const TargetBox& World::target() const { return impl_->target(); }
+std::vector<Contact> World::take_contacts() { return impl_->contacts.take(); }
+bool World::fallen() const { return impl_->fallen(); }
+
+void World::command_arm(const ArmVector& positions, const ArmVector& velocities) {
+  impl_->command_arm(positions, velocities);
+}
+
+void World::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+  impl_->apply_hand_wrench(force, torque);
+}
+
+}  // namespace platform_sim
