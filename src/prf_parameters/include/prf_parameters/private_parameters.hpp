@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The private parameters of a node, read strictly: a missing key, a wrong type or a key that
+// nothing reads is a std::invalid_argument that names the parameter, its value and what it must be.
+//
+//   PrivateParameters values(ros::NodeHandle("~"));
+//   params.rate = values.number("rate");
+//   values.refuse_unknown();
+//
+// Bounds are the business of whoever owns the value (its validate()).
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace prf_parameters {
+
+class PrivateParameters {
+ public:
+  explicit PrivateParameters(const ros::NodeHandle& private_handle);
+  explicit PrivateParameters(const XmlRpc::XmlRpcValue& values);
+
+  [[nodiscard]] double number(const std::string& key);  // also from an integer; may be NaN or inf
+  [[nodiscard]] int integer(const std::string& key);
+  [[nodiscard]] bool flag(const std::string& key);
+  [[nodiscard]] std::string text(const std::string& key);
+  [[nodiscard]] std::vector<double> numbers(const std::string& key);
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, int count);  // exactly so many
+  [[nodiscard]] std::vector<int> integers(const std::string& key);
+
+  // To be called once everything has been read. Keys that begin with "__" are ROS's own.
+  void refuse_unknown() const;
+
+ private:
+  XmlRpc::XmlRpcValue& at(const std::string& key);
+  XmlRpc::XmlRpcValue& list(const std::string& key, const std::string& must);
+
+  XmlRpc::XmlRpcValue values_;
+  std::set<std::string> read_;
+};
+
+// Runs a node's main function. A std::invalid_argument out of it becomes one ROS_FATAL line and
+// exit code 2, as for a command that is called wrongly.
+[[nodiscard]] int run(const std::function<void()>& node_main);
+
+}  // namespace prf_parameters

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_parameters/private_parameters.hpp"
+
+#include <ros/console.h>
+
+#include <sstream>
+#include <stdexcept>
+
+namespace prf_parameters {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+[[noreturn]] void refuse(const std::string& key, XmlRpcValue value, const std::string& must) {
+  std::ostringstream message;
+  message << key << " = ";
+  value.write(message);
+  message << ", must be " << must;
+  throw std::invalid_argument(message.str());
+}
+
+bool is_number(const XmlRpcValue& value) {
+  return value.getType() == XmlRpcValue::TypeInt || value.getType() == XmlRpcValue::TypeDouble;
+}
+
+double to_number(XmlRpcValue& value) {
+  if (value.getType() == XmlRpcValue::TypeInt) return static_cast<int>(value);
+  return static_cast<double>(value);
+}
+
+XmlRpcValue fetch(const ros::NodeHandle& handle) {
+  XmlRpcValue values;
+  handle.getParam(handle.getNamespace(), values);
+  if (values.getType() != XmlRpcValue::TypeStruct) {
+    throw std::invalid_argument("no parameters in " + handle.getNamespace() +
+                                ", the node's configuration must be loaded there");
+  }
+  return values;
+}
+
+}  // namespace
+
+PrivateParameters::PrivateParameters(const ros::NodeHandle& private_handle)
+    : PrivateParameters(fetch(private_handle)) {}
+
+PrivateParameters::PrivateParameters(const XmlRpcValue& values) : values_(values) {}
+
+XmlRpcValue& PrivateParameters::at(const std::string& key) {
+  if (!values_.hasMember(key)) throw std::invalid_argument(key + " is missing, it is required");
+  read_.insert(key);
+  return values_[key];
+}
+
+double PrivateParameters::number(const std::string& key) {
+  XmlRpcValue& value = at(key);
+  if (!is_number(value)) refuse(key, value, "a number");
+  return to_number(value);
+}
+
+int PrivateParameters::integer(const std::string& key) {
+  XmlRpcValue& value = at(key);
+  if (value.getType() != XmlRpcValue::TypeInt) refuse(key, value, "an integer");
+  return static_cast<int>(value);
+}
+
+bool PrivateParameters::flag(const std::string& key) {
+  XmlRpcValue& value = at(key);
+  if (value.getType() != XmlRpcValue::TypeBoolean) refuse(key, value, "true or false");
+  return static_cast<bool>(value);
+}
+
+std::string PrivateParameters::text(const std::string& key) {
+  XmlRpcValue& value = at(key);
+  if (value.getType() != XmlRpcValue::TypeString) refuse(key, value, "a string");
+  return static_cast<std::string>(value);
+}
+
+XmlRpcValue& PrivateParameters::list(const std::string& key, const std::string& must) {
+  XmlRpcValue& value = at(key);
+  if (value.getType() != XmlRpcValue::TypeArray) refuse(key, value, must);
+  return value;
+}
+
+std::vector<double> PrivateParameters::numbers(const std::string& key) {
+  XmlRpcValue& value = list(key, "a list of numbers");
+  std::vector<double> result;
+  for (int i = 0; i < value.size(); ++i) {
+    if (!is_number(value[i])) refuse(key, value, "a list of numbers");
+    result.push_back(to_number(value[i]));
+  }
+  return result;
+}
+
+std::vector<double> PrivateParameters::numbers(const std::string& key, int count) {
+  const std::string must = "a list of " + std::to_string(count) + " numbers";
+  if (list(key, must).size() != count) refuse(key, values_[key], must);
+  return numbers(key);
+}
+
+std::vector<int> PrivateParameters::integers(const std::string& key) {
+  XmlRpcValue& value = list(key, "a list of integers");
+  std::vector<int> result;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpcValue::TypeInt) refuse(key, value, "a list of integers");
+    result.push_back(static_cast<int>(value[i]));
+  }
+  return result;
+}
+
+void PrivateParameters::refuse_unknown() const {
+  for (auto entry = values_.begin(); entry != values_.end(); ++entry) {
+    if (read_.count(entry->first) == 0 && entry->first.rfind("__", 0) != 0) {
+      refuse(entry->first, entry->second, "absent: this node has no such parameter");
+    }
+  }
+}
+
+int run(const std::function<void()>& node_main) {
+  try {
+    node_main();
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    ROS_FATAL("parameter refused: %s", error.what());
+    return 2;
+  }
+}
+
+}  // namespace prf_parameters

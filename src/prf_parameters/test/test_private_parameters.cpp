@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_parameters/private_parameters.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace prf_parameters {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue sample() {
+  XmlRpcValue values;
+  values["rate"] = 2.5;
+  values["nodes"] = 50;
+  values["framework"] = true;
+  values["planner"] = std::string("elte");
+  values["gains"][0] = 1;
+  values["gains"][1] = 0.5;
+  values["ids"][0] = 3;
+  return values;
+}
+
+template <typename Call>
+std::string complaint(Call call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(PrivateParameters, ReadsEachType) {
+  PrivateParameters values(sample());
+  EXPECT_EQ(values.number("rate"), 2.5);
+  EXPECT_EQ(values.number("nodes"), 50.0);
+  EXPECT_EQ(values.integer("nodes"), 50);
+  EXPECT_TRUE(values.flag("framework"));
+  EXPECT_EQ(values.text("planner"), "elte");
+  EXPECT_THAT(values.numbers("gains", 2), ElementsAre(1.0, 0.5));
+  EXPECT_THAT(values.integers("ids"), ElementsAre(3));
+  EXPECT_NO_THROW(values.refuse_unknown());
+}
+
+TEST(PrivateParameters, NamesTheMissingKey) {
+  PrivateParameters values(sample());
+  EXPECT_THAT(complaint([&] { (void)values.number("radius"); }), HasSubstr("radius is missing"));
+}
+
+TEST(PrivateParameters, NamesKeyValueAndTypeWhenTheTypeIsWrong) {
+  PrivateParameters values(sample());
+  EXPECT_EQ(complaint([&] { (void)values.integer("rate"); }), "rate = 2.5, must be an integer");
+  EXPECT_EQ(complaint([&] { (void)values.number("planner"); }), "planner = elte, must be a number");
+  EXPECT_EQ(complaint([&] { (void)values.flag("nodes"); }), "nodes = 50, must be true or false");
+  EXPECT_EQ(complaint([&] { (void)values.text("nodes"); }), "nodes = 50, must be a string");
+  EXPECT_THAT(complaint([&] { (void)values.numbers("rate"); }), HasSubstr("rate = 2.5"));
+  EXPECT_THAT(complaint([&] { (void)values.numbers("gains", 3); }), HasSubstr("list of 3 numbers"));
+  EXPECT_THAT(complaint([&] { (void)values.integers("gains"); }), HasSubstr("list of integers"));
+}
+
+TEST(PrivateParameters, RefusesAKeyThatNothingReads) {
+  XmlRpcValue one;
+  one["raet"] = 1.0;
+  const PrivateParameters values(one);
+  EXPECT_THAT(complaint([&] { values.refuse_unknown(); }), HasSubstr("raet = 1"));
+}
+
+TEST(PrivateParameters, LeavesReservedKeysOfRosAlone) {
+  XmlRpcValue one;
+  one["__reserved"] = 1.0;
+  EXPECT_NO_THROW(PrivateParameters(one).refuse_unknown());
+}
+
+TEST(Run, TurnsARefusalIntoExitCodeTwo) {
+  EXPECT_EQ(run([] { throw std::invalid_argument("rate = -1, must be > 0"); }), 2);
+  EXPECT_EQ(run([] {}), 0);
+}
+
+}  // namespace
+}  // namespace prf_parameters
