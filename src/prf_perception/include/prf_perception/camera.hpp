@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A pinhole camera and one grey image of it.
+//
+// A point (X, Y, Z) of the optical frame (x right, y down, z forward) is seen at
+//   u = fx X / Z + cx,  v = fy Y / Z + cy,
+// in pixels with (0, 0) at the CENTRE of the first pixel, the convention of camera_info and OpenCV.
+#pragma once
+
+#include <cstdint>
+
+namespace prf_perception {
+
+struct CameraIntrinsics {
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+  int width = 0;
+  int height = 0;
+};
+
+// Throws std::invalid_argument naming the value unless sizes and focal lengths are positive and
+// everything is finite.
+void validate(const CameraIntrinsics& camera);
+
+struct ImageView {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  int stride = 0;  // bytes from one row to the next, >= width
+};
+
+}  // namespace prf_perception

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Messages to core types and back.
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <prf_msgs/TagDetectionArray.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <std_msgs/Header.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "prf_perception/tag_detector.hpp"
+
+namespace prf_perception {
+
+// Throws std::invalid_argument when the lens distorts: the image has to be rectified first.
+inline CameraIntrinsics to_intrinsics(const sensor_msgs::CameraInfo& info) {
+  if (std::any_of(info.D.begin(), info.D.end(), [](double d) { return d != 0.0; })) {
+    throw std::invalid_argument("camera_info D is not zero, must be the rectified image's");
+  }
+  return {info.K[0],
+          info.K[4],
+          info.K[2],
+          info.K[5],
+          static_cast<int>(info.width),
+          static_cast<int>(info.height)};
+}
+
+inline prf_msgs::TagDetectionArray to_message(const std_msgs::Header& header,
+                                              const std::string& family,
+                                              const std::vector<TagDetection>& detections) {
+  prf_msgs::TagDetectionArray array;
+  array.header = header;
+  for (const TagDetection& detection : detections) {
+    prf_msgs::TagDetection message;
+    message.family = family;
+    message.id = detection.id;
+    message.hamming = static_cast<std::uint8_t>(detection.hamming);
+    message.decision_margin = static_cast<float>(detection.decision_margin);
+    for (std::size_t i = 0; i < 4; ++i) {
+      message.corners_px[2 * i] = detection.corners[i].x();
+      message.corners_px[2 * i + 1] = detection.corners[i].y();
+    }
+    const Eigen::Vector3d position = detection.pose.marker_in_camera.translation();
+    const Eigen::Quaterniond orientation(detection.pose.marker_in_camera.linear());
+    message.pose.pose.position.x = position.x();
+    message.pose.pose.position.y = position.y();
+    message.pose.pose.position.z = position.z();
+    message.pose.pose.orientation.x = orientation.x();
+    message.pose.pose.orientation.y = orientation.y();
+    message.pose.pose.orientation.z = orientation.z();
+    message.pose.pose.orientation.w = orientation.w();
+    Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data()) =
+        detection.pose.covariance;
+    array.detections.push_back(message);
+  }
+  return array;
+}
+
+inline geometry_msgs::TransformStamped to_transform(const std_msgs::Header& header,
+                                                    const prf_msgs::TagDetection& detection) {
+  geometry_msgs::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = "tag_" + std::to_string(detection.id);
+  transform.transform.translation.x = detection.pose.pose.position.x;
+  transform.transform.translation.y = detection.pose.pose.position.y;
+  transform.transform.translation.z = detection.pose.pose.position.z;
+  transform.transform.rotation = detection.pose.pose.orientation;
+  return transform;
+}
+
+}  // namespace prf_perception

@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""tag_detector_node from outside: every image is answered once, bad parameters are refused."""
+import os
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+import yaml
+from prf_msgs.msg import TagDetectionArray
+from sensor_msgs.msg import CameraInfo, Image
+from tf2_msgs.msg import TFMessage
+
+PACKAGE = "prf_perception"
+WIDTH, HEIGHT, FOCAL = 640, 480, 600.0
+MODULE_PX = 20  # a 100 mm tag of eight modules at 0.375 m
+TAGS = {
+    0: """1111111111 1000000001 1011010101 1001110101 1001100001
+          1010100001 1001011001 1000010001 1000000001 1111111111""",
+    7: """1111111111 1000000001 1000010001 1000011001 1001010001
+          1010111001 1000011101 1001010001 1000000001 1111111111""",
+}
+
+
+def frame(tag_id=None):
+    """A grey image with the tag's centre in the middle, head on."""
+    pixels = np.full((HEIGHT, WIDTH), 110, np.uint8)
+    if tag_id is not None:
+        bits = np.array([[int(c) for c in row] for row in TAGS[tag_id].split()], np.uint8)
+        tag = np.kron(bits, np.ones((MODULE_PX, MODULE_PX), np.uint8)) * 255
+        top, left = (HEIGHT - len(tag)) // 2, (WIDTH - len(tag)) // 2
+        pixels[top:top + len(tag), left:left + len(tag)] = tag
+    return pixels
+
+
+class TagDetectorNode(unittest.TestCase):
+    stamp = 100.0
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("tag_detector_test")
+        cls.answers, cls.transforms = [], []
+        cls.images = rospy.Publisher("camera/image_raw", Image, queue_size=10)
+        cls.infos = rospy.Publisher("camera/camera_info", CameraInfo, queue_size=10)
+        cls.keep = [
+            rospy.Subscriber("tag_detections", TagDetectionArray, cls.answers.append),
+            rospy.Subscriber("/tf", TFMessage, lambda m: cls.transforms.extend(m.transforms)),
+        ]
+        cls.wait(lambda: cls.images.get_num_connections() and cls.infos.get_num_connections()
+                 and all(s.get_num_connections() for s in cls.keep))
+
+    @staticmethod
+    def wait(condition, seconds=20.0):
+        for _ in range(int(seconds / 0.01)):
+            if condition():
+                return
+            rospy.rostime.wallsleep(0.01)
+        raise AssertionError("waited in vain")
+
+    def setUp(self):
+        self.answers.clear()
+        self.transforms.clear()
+
+    def send(self, pixels, encoding="mono8", info=True, width=WIDTH, frame_id="camera"):
+        TagDetectorNode.stamp += 1 / 30
+        stamp = rospy.Time.from_sec(self.stamp)
+        image = Image(encoding=encoding, height=HEIGHT, width=pixels.shape[1],
+                      step=pixels.strides[0], data=pixels.tobytes())
+        image.header.stamp, image.header.frame_id = stamp, frame_id
+        self.images.publish(image)
+        if info:
+            message = CameraInfo(width=width, height=HEIGHT)
+            message.header = image.header
+            message.K = [FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1]
+            self.infos.publish(message)
+        return stamp
+
+    def answer(self, count=1):
+        self.wait(lambda: len(self.answers) >= count)
+        rospy.rostime.wallsleep(0.1)
+        self.assertEqual(len(self.answers), count, "exactly one answer for every image")
+        return self.answers[-1]
+
+    def test_image_gives_detection_and_tag_frame(self):
+        stamp = self.send(frame(0))
+        array = self.answer()
+        self.assertEqual(array.header.stamp, stamp)
+        self.assertEqual(array.header.frame_id, "camera")
+        self.assertEqual([(d.family, d.id) for d in array.detections], [("tag36h11", 0)])
+        pose = array.detections[0].pose.pose
+        self.assertAlmostEqual(pose.position.x, 0.0, delta=5e-4)
+        self.assertAlmostEqual(pose.position.y, 0.0, delta=5e-4)
+        self.assertAlmostEqual(pose.position.z, 0.1 * FOCAL / (8 * MODULE_PX), delta=2e-3)
+        self.assertGreater(abs(pose.orientation.x), 0.999)
+        covariance = np.reshape(array.detections[0].pose.covariance, (6, 6))
+        self.assertGreater(np.linalg.eigvalsh(covariance).min(), 0.0)
+        self.wait(lambda: self.transforms)
+        sent = self.transforms[0]
+        self.assertEqual((sent.header.stamp, sent.header.frame_id, sent.child_frame_id),
+                         (stamp, "camera", "tag_0"))
+        self.assertEqual(sent.transform.translation.z, pose.position.z)
+
+    def test_blank_image_gives_empty_array(self):
+        stamp = self.send(frame())
+        array = self.answer()
+        self.assertEqual(array.header.stamp, stamp)
+        self.assertEqual(array.detections, [])
+
+    def test_colour_images_are_read(self):
+        colour = np.ascontiguousarray(np.repeat(frame(0)[:, :, None], 3, axis=2))
+        self.send(colour, encoding="bgr8")
+        self.send(colour, encoding="rgb8")
+        self.answer(2)
+        self.assertEqual([len(a.detections) for a in self.answers], [1, 1])
+
+    def test_tag_of_another_id_is_published_but_no_frame(self):
+        self.send(frame(7))
+        self.assertEqual([d.id for d in self.answer().detections], [7])
+        self.assertEqual(self.transforms, [])
+
+    def test_images_that_cannot_be_read_give_empty_arrays(self):
+        self.send(frame(0), encoding="32FC1")
+        self.assertEqual(self.answer().detections, [])
+        self.send(frame(0), width=320)
+        self.assertEqual(self.answer(2).detections, [])
+        self.send(frame(0), frame_id="")
+        self.assertEqual(self.answer(3).detections, [])
+        self.send(frame(0), info=False)
+        self.send(frame(0))
+        self.answer(5)
+        self.assertEqual([len(a.detections) for a in self.answers[3:]], [0, 1])
+
+
+class TagDetectorParameters(unittest.TestCase):
+    CATALOGUE = [
+        ("tag_family", "tag99"), ("tag_family", 3), ("tag_size", 0.0), ("tag_size", -0.1),
+        ("tag_size", float("nan")), ("tag_size", "big"), ("tag_ids", [-1]), ("tag_ids", 0),
+        ("max_hamming", 3), ("max_hamming", 0.5), ("min_decision_margin", -1.0),
+        ("quad_decimate", 0.0), ("min_white_black_diff", 0), ("corner_sigma", 0.0),
+        ("position_floor", float("inf")), ("orientation_floor", -1.0), ("info_wait", -1.0),
+        ("tag_sise", 0.1), ("quad_decimate", None),
+    ]
+
+    def test_bad_values_end_the_node_with_code_2_and_their_name(self):
+        path = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "tag_detector.yaml")
+        with open(path, encoding="utf-8") as file:
+            good = yaml.safe_load(file)
+        executable = roslib.packages.find_node(PACKAGE, "tag_detector_node")[0]
+        for name, value in self.CATALOGUE:
+            with self.subTest(name=name, value=value):
+                values = {k: v for k, v in {**good, name: value}.items() if v is not None}
+                if rospy.has_param("/refused"):
+                    rospy.delete_param("/refused")
+                rospy.set_param("/refused", values)
+                done = subprocess.run([executable, "__name:=refused"], timeout=20, check=False,
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                fatal = [l for l in done.stderr.splitlines() if "FATAL" in l]
+                self.assertEqual(len(fatal), 1, done.stderr)
+                self.assertIn(name, fatal[0])
+
+
+if __name__ == "__main__":
+    rostest.rosrun(PACKAGE, "tag_detector_node", "__main__", sys.argv)
