@@ -182,26 +182,24 @@ Eigen::Isometry3d RobotModel::centre_pose(int body) const {
                             : multibody_->getLink(body - 1).m_cachedWorldTransform);
 }
 
-// Velocities from the base outward: w = w_parent + a dq, v = v_parent + w_parent x (p - c_parent)
+// From the base outward: w = w_parent + a dq, v = v_parent + w_parent x (p - c_parent)
 // + w x (c - p), with p a point of the joint's axis a and c the centres of mass.
-std::vector<FrameState> RobotModel::centre_states() const {
-  std::vector<FrameState> states(tree_.bodies.size());
-  states[0].pose = centre_pose(0);
-  states[0].linear = to_eigen(multibody_->getBaseVel());
-  states[0].angular = to_eigen(multibody_->getBaseOmega());
-  for (std::size_t i = 1; i < states.size(); ++i) {
-    const RigidBody& body = tree_.bodies[i];
-    const FrameState& parent = states[at(body.parent)];
-    FrameState& state = states[i];
-    state.pose = centre_pose(static_cast<int>(i));
-    const Eigen::Isometry3d link = state.pose * centre_in_link_[i].inverse();
-    const double rate = multibody_->getJointVel(static_cast<int>(i) - 1);
-    const Eigen::Vector3d& pivot = link.translation();
-    state.angular = parent.angular + rate * (link.linear() * body.axis);
-    state.linear = parent.linear + parent.angular.cross(pivot - parent.pose.translation()) +
-                   state.angular.cross(state.pose.translation() - pivot);
+FrameState RobotModel::centre_state(int body) const {
+  FrameState state;
+  state.pose = centre_pose(body);
+  if (body == 0) {
+    state.linear = to_eigen(multibody_->getBaseVel());
+    state.angular = to_eigen(multibody_->getBaseOmega());
+    return state;
   }
-  return states;
+  const RigidBody& moved = tree_.bodies[at(body)];
+  const FrameState parent = centre_state(moved.parent);
+  const Eigen::Isometry3d link = state.pose * centre_in_link_[at(body)].inverse();
+  const Eigen::Vector3d& pivot = link.translation();
+  state.angular = parent.angular + multibody_->getJointVel(body - 1) * (link.linear() * moved.axis);
+  state.linear = parent.linear + parent.angular.cross(pivot - parent.pose.translation()) +
+                 state.angular.cross(state.pose.translation() - pivot);
+  return state;
 }
 
 const LinkFrame& RobotModel::find_link(const std::string& name) const {
@@ -212,7 +210,7 @@ const LinkFrame& RobotModel::find_link(const std::string& name) const {
 
 FrameState RobotModel::frame(const std::string& link) const {
   const LinkFrame& frame = find_link(link);
-  const FrameState centre = centre_states()[at(frame.body)];
+  const FrameState centre = centre_state(frame.body);
   FrameState state = centre;
   state.pose = centre.pose * centre_in_link_[at(frame.body)].inverse() * frame.pose;
   state.linear += centre.angular.cross(state.pose.translation() - centre.pose.translation());

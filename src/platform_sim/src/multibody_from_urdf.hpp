@@ -79,7 +79,7 @@ class RobotModel {
   void add_collider(int body, const RobotSurface& surface);
   void add_position_limits();
   [[nodiscard]] Eigen::Isometry3d centre_pose(int body) const;  // Bullet's frame in world
-  [[nodiscard]] std::vector<FrameState> centre_states() const;
+  [[nodiscard]] FrameState centre_state(int body) const;
   [[nodiscard]] const LinkFrame& find_link(const std::string& name) const;
 
   BulletScene& scene_;

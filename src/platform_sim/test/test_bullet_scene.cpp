@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bullet_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "eigen_bullet.hpp"
+
+namespace platform_sim {
+namespace {
+
+constexpr double kTimeStep = 0.001;
+constexpr double kGravity = 9.81;
+constexpr double kFriction = 0.5;
+
+Eigen::Isometry3d at(const Eigen::Vector3d& position) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = position;
+  return pose;
+}
+
+// A block of 10 kg on a deck that accelerates level along `direction`.
+struct BlockOnDeck {
+  BulletScene scene{kTimeStep};
+  CuboidBody deck{scene, "deck", {{Eigen::Isometry3d::Identity(), {6.0, 6.0, 0.1}}},
+                  0.0,   {1, 2}, at({0.0, 0.0, -0.05})};
+  CuboidBody block{scene, "block", {{Eigen::Isometry3d::Identity(), {0.3, 0.3, 0.1}}},
+                   10.0,  {2, 1},  at({0.0, 0.0, 0.05})};
+
+  BlockOnDeck() {
+    block.body().setFriction(kFriction);
+    block.body().setContactStiffnessAndDamping(1e5, 3e3);
+    for (int step = 0; step < 300; ++step) scene.step();
+  }
+
+  // Distance that the block moves over the deck.
+  double slip(double acceleration, const Eigen::Vector3d& direction) {
+    const Eigen::Vector3d start = to_eigen(block.body().getWorldTransform()).translation();
+    double travel = 0.0;
+    for (int step = 1; step <= 1000; ++step) {
+      const double time = step * kTimeStep;
+      travel = 0.5 * acceleration * time * time;
+      deck.move_to(at(travel * direction + Eigen::Vector3d(0.0, 0.0, -0.05)));
+      scene.step();
+    }
+    const Eigen::Vector3d end = to_eigen(block.body().getWorldTransform()).translation();
+    return travel - (end - start).dot(direction);
+  }
+};
+
+TEST(BulletScene, DeckCarriesABlockUpToTheFrictionLimitInAnyDirection) {
+  for (double angle : {0.0, 0.4, 0.785, 1.571, 2.5}) {
+    BlockOnDeck world;
+    const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
+    EXPECT_LT(std::abs(world.slip(0.95 * kFriction * kGravity, direction)), 1e-3) << angle;
+  }
+}
+
+TEST(BulletScene, BlockSlipsAsCoulombSaysAboveTheFrictionLimit) {
+  for (double angle : {0.0, 0.4, 0.785, 1.571, 2.5}) {
+    BlockOnDeck world;
+    const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
+    const double limit = kFriction * kGravity;
+    const double expected = 0.5 * 0.2 * limit;  // s = (a - mu g) t^2 / 2 at 1 s
+    EXPECT_NEAR(world.slip(1.2 * limit, direction), expected, 0.02 * expected) << angle;
+  }
+}
+
+TEST(BulletScene, ContactForcesOfAStandingBlockSumToItsWeight) {
+  BlockOnDeck world;
+  double force = 0.0;
+  for (const ContactPoint& point : world.scene.contact_points()) {
+    EXPECT_TRUE((point.link_a == "deck" && point.link_b == "block") ||
+                (point.link_a == "block" && point.link_b == "deck"));
+    EXPECT_NEAR(point.position.z(), 0.0, 2e-3);
+    force += point.force;
+  }
+  EXPECT_NEAR(force, 10.0 * kGravity, 0.01 * 10.0 * kGravity);
+}
+
+}  // namespace
+}  // namespace platform_sim
