@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The energy of elastic Laplacian trajectory editing and its optimality conditions.
+//
+//   J(y) = |L(y - zeta)|^2 + w_E |E y|^2 + w_R |R y|^2
+//
+// y and zeta (the demonstration) are N nodes x d dimensions, E is the first difference, R the
+// second difference (rows [1 -2 1]). L is the graph Laplacian of the chain: -R/2 at the inner nodes
+// and, by choice, nothing or the one-sided differences at the two end nodes.
+// All weights are per node and without unit.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace elte_planner {
+
+enum class Laplacian {
+  kFreeEnds,       // inner rows only, as the authors' published code
+  kRowNormalised,  // with end rows y0-y1 and y_{N-1}-y_{N-2}: keeps the tangents at the ends
+};
+
+struct ElteWeights {
+  double elastic = 0.001;  // w_E
+  double bending = 0.001;  // w_R
+  Laplacian laplacian = Laplacian::kFreeEnds;
+
+  void validate() const;                               // throws std::invalid_argument
+  double curvature() const { return 0.25 + bending; }  // q, the weight of |R y|^2 in all
+
+  // Number of nodes over which a disturbance decays; a demonstration much longer than this is
+  // pulled toward a straight line.
+  double decay_nodes() const;
+};
+
+// Throws unless zeta has at least 3 nodes, 1 dimension and only finite values.
+void validate_demonstration_nodes(const Eigen::Ref<const Eigen::MatrixXd>& zeta);
+
+[[nodiscard]] double energy(const Eigen::Ref<const Eigen::MatrixXd>& zeta,
+                            const ElteWeights& weights, const Eigen::Ref<const Eigen::MatrixXd>& y);
+
+// Half the gradient of J at one node and dimension.
+[[nodiscard]] double half_gradient(const Eigen::Ref<const Eigen::MatrixXd>& zeta,
+                                   const ElteWeights& weights,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& y, Eigen::Index node,
+                                   Eigen::Index dimension);
+
+// Euclidean projection of `point` on {x : |x - centre|_1 <= radius}, in place, no allocation.
+void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double radius,
+                        Eigen::Ref<Eigen::VectorXd, 0, Eigen::InnerStride<>> point);
+
+// KKT residual of minimising J over the rows from `frozen` on, the last one within `radius` of
+// `goal` in the l1 norm: the largest |y_k - Proj_k(y_k - grad_k J / 2)|, in the unit of y.
+[[nodiscard]] double endpoint_kkt_residual(const Eigen::Ref<const Eigen::MatrixXd>& zeta,
+                                           const ElteWeights& weights,
+                                           const Eigen::Ref<const Eigen::MatrixXd>& y,
+                                           Eigen::Index frozen,
+                                           const Eigen::Ref<const Eigen::VectorXd>& goal,
+                                           double radius);
+
+// How much of the demonstration's shape the elastic term costs without any editing (both ends
+// kept): largest displacement over the largest distance from the chord. 0 is none, 1 a straight
+// line; 0 for a demonstration that is straight itself.
+[[nodiscard]] double shape_loss(const Eigen::MatrixXd& zeta, const ElteWeights& weights);
+
+}  // namespace elte_planner

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Orientations along an edited path. The demonstrated orientation D_k is corrected by a rotation
+// C_k of the planning frame, R_k = C_k D_k: at the last frozen node C is what the previous plan has
+// there, at the last node it takes D to the goal, between them it follows the geodesic evenly by
+// node. So frozen nodes stay, the orientation is continuous at the cursor, the end is the goal, and
+// planning again one node later for the same goal changes nothing.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace elte_planner {
+
+// frozen: 1 .. nodes. Throws std::invalid_argument when sizes differ or frozen is out of range.
+[[nodiscard]] std::vector<Eigen::Quaterniond> blend_orientations(
+    const std::vector<Eigen::Quaterniond>& demonstrated,
+    const std::vector<Eigen::Quaterniond>& previous, Eigen::Index frozen,
+    const Eigen::Quaterniond& goal);
+
+}  // namespace elte_planner

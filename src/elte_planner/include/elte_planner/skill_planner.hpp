@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What every planner of a skill offers: from a demonstration given at construction (nodes x
+// dimensions, m), bend the part of the plan that is not yet executed so that its end comes within
+// an l1 ball of the goal.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "elte_planner/elte_energy.hpp"
+
+namespace elte_planner {
+
+enum class PlanStatus {
+  kSolved,
+  kRelaxed,  // infeasible as asked; the radius was opened by `slack`
+  kFailed,   // no plan, the message says why
+};
+
+struct PlanRequest {
+  Eigen::MatrixXd previous;  // nodes x dimensions; its first `frozen` rows are kept as they are
+  Eigen::Index frozen = 2;   // 2 .. nodes
+  Eigen::VectorXd goal;
+  double radius = 0.0;  // of the l1 ball around the goal, >= 0
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kFailed;
+  Eigen::MatrixXd positions;  // nodes x dimensions; empty when failed
+  double kkt_residual = 0.0;  // in the unit of the positions; 0 for planners without one
+  double slack = 0.0;         // added to the radius when relaxed
+  std::string message;        // one line when not solved
+};
+
+class SkillPlanner {
+ public:
+  SkillPlanner() = default;
+  SkillPlanner(const SkillPlanner&) = delete;
+  SkillPlanner& operator=(const SkillPlanner&) = delete;
+  virtual ~SkillPlanner() = default;
+
+  virtual std::string name() const = 0;
+
+  // Throws std::invalid_argument for a request of wrong size or with values that are not finite.
+  [[nodiscard]] virtual PlanResult plan(const PlanRequest& request) const = 0;
+};
+
+// For implementations: throws std::invalid_argument unless the request fits the demonstration.
+void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonstration);
+
+// For implementations: the answer when every node is frozen. Solved when the last node is within
+// the ball, else relaxed by what is missing.
+[[nodiscard]] PlanResult all_frozen(const PlanRequest& request);
+
+// Throws std::invalid_argument, listing the known names, when `name` is none of them.
+[[nodiscard]] std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
+                                                               const Eigen::MatrixXd& demonstration,
+                                                               const ElteWeights& weights);
+
+}  // namespace elte_planner

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The planned skill over one execution: turns what is forecast of the target and how far the
+// execution has come into the next plan of poses. Stamps and durations in seconds; all poses in the
+// planning frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "elte_planner/demonstration.hpp"
+#include "elte_planner/elte_energy.hpp"
+#include "elte_planner/skill_planner.hpp"
+
+namespace elte_planner {
+
+enum class TargetStatus { kNoTarget, kTracking, kCoasting, kLost };
+
+struct TargetPrediction {
+  double horizon = 0.0;  // s after the forecast's stamp
+  Pose target;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the position, m^2
+};
+
+struct Forecast {
+  std::int64_t stamp = 0;  // ns
+  TargetStatus status = TargetStatus::kNoTarget;
+  std::vector<TargetPrediction> predictions;  // horizons strictly rising
+};
+
+struct Progress {
+  std::int64_t stamp = 0;           // ns
+  std::int64_t forecast_stamp = 0;  // ns, of the forecast in force; 0 for none
+  Eigen::Index frozen = 0;          // leading nodes that must not move
+  double time_to_go = 0.0;          // s from the cursor to the last node
+};
+
+struct SessionParams {
+  std::string planner;    // see make_skill_planner
+  bool framework = true;  // false: adapt once, to the first tracked forecast
+  int nodes = 0;          // of the plan, 3 .. 10000
+  ElteWeights weights;
+  double horizon_max = 0.0;  // s, farthest look ahead, within [0, 60]
+  double confidence = 0.0;   // probability of the end point's l1 ball, within (0, 1)
+  double radius_min = 0.0;   // m
+  double radius_max = 0.0;   // m, at least radius_min
+
+  void validate() const;  // throws std::invalid_argument with name, value and bound
+};
+
+enum class AnswerStatus { kNoPlan, kSolved, kRelaxed, kKept };
+
+struct SkillAnswer {
+  AnswerStatus status = AnswerStatus::kNoPlan;
+  std::string message;
+  Eigen::Index frozen = 0;
+  double kkt_residual = 0.0;  // m
+  double radius = 0.0;        // m
+  double slack = 0.0;         // m
+  std::vector<TimedPose> poses;
+};
+
+// The target `horizon` seconds after the forecast's stamp, interpolated between the predictions and
+// held beyond the last; nothing when there are none, one is not finite or horizons do not rise.
+[[nodiscard]] std::optional<TargetPrediction> predicted_target(const Forecast& forecast,
+                                                               double horizon);
+
+class SkillSession {
+ public:
+  // Throws std::invalid_argument.
+  SkillSession(const SessionParams& params, const Demonstration& demonstration);
+
+  // forecast: the one that the progress names; null when it was lost on its way.
+  [[nodiscard]] SkillAnswer answer(const Progress& progress, const Forecast* forecast);
+
+  void reset();  // a new run: forgets the plan
+
+  const Pose& goal_in_target() const { return goal_in_target_; }
+  const Demonstration& demonstration() const { return demonstration_; }  // the plan's nodes
+  std::string planner_name() const { return planner_->name(); }
+
+ private:
+  SkillAnswer adapt(Eigen::Index frozen, const TargetPrediction& target);
+  SkillAnswer keep(const std::string& reason, Eigen::Index frozen) const;
+
+  SessionParams params_;
+  Demonstration demonstration_;  // resampled to the plan's nodes
+  Pose goal_in_target_;
+  std::vector<Eigen::Quaterniond> demonstrated_orientations_;
+  std::unique_ptr<SkillPlanner> planner_;
+  std::optional<SkillAnswer> plan_;  // the last feasible one
+};
+
+}  // namespace elte_planner

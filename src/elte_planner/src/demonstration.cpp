@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/demonstration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace elte_planner {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("demonstration: " + what);
+}
+
+template <typename Value>
+std::string text(const Value& value) {
+  std::ostringstream out;
+  out.precision(9);
+  out << value;
+  return out.str();
+}
+
+Pose checked(const Pose& pose, const std::string& where) {
+  if (!pose.is_finite()) refuse(where + " has a coordinate that is not finite");
+  const double farthest = pose.position.cwiseAbs().maxCoeff();
+  if (farthest > Demonstration::kMaxCoordinate) {
+    refuse(where + " has a coordinate of " + text(farthest) + " m, must be at most " +
+           text(Demonstration::kMaxCoordinate) + " m");
+  }
+  const double norm = pose.orientation.norm();
+  if (!(std::abs(norm - 1.0) <= Demonstration::kQuaternionTolerance)) {
+    refuse(where + " has a quaternion of norm " + text(norm) + ", must be within " +
+           text(Demonstration::kQuaternionTolerance) + " of 1");
+  }
+  return {pose.position, pose.orientation.normalized()};
+}
+
+std::vector<double> arc_lengths(const std::vector<TimedPose>& samples) {
+  std::vector<double> arc(samples.size(), 0.0);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    arc[i] = arc[i - 1] + (samples[i].pose.position - samples[i - 1].pose.position).norm();
+  }
+  return arc;
+}
+
+TimedPose interpolated(const TimedPose& a, const TimedPose& b, double fraction) {
+  return {a.time + fraction * (b.time - a.time),
+          {a.pose.position + fraction * (b.pose.position - a.pose.position),
+           a.pose.orientation.slerp(fraction, b.pose.orientation)}};
+}
+
+}  // namespace
+
+Eigen::Isometry3d Pose::transform() const {
+  return Eigen::Translation3d(position) * Eigen::Isometry3d(orientation);
+}
+
+Pose pose_from(const Eigen::Isometry3d& transform) {
+  return {transform.translation(), Eigen::Quaterniond(transform.linear()).normalized()};
+}
+
+Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
+                             std::string child_frame, const Pose& target)
+    : samples_(std::move(samples)),
+      frame_(std::move(frame)),
+      child_frame_(std::move(child_frame)),
+      target_(checked(target, "target_pose")) {
+  if (frame_.empty()) refuse("frame is empty, must name the frame of the poses");
+  if (child_frame_.empty()) refuse("child_frame is empty, must name the guided frame");
+  if (samples_.size() < kMinSamples) {
+    refuse("has " + text(samples_.size()) + " samples, must have at least " + text(kMinSamples));
+  }
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const std::string where = "sample " + text(i);
+    if (!std::isfinite(samples_[i].time)) refuse(where + " has a time that is not finite");
+    if (i == 0 && samples_[i].time != 0.0) {
+      refuse(where + " has time " + text(samples_[i].time) + " s, must be 0");
+    }
+    if (i > 0 && !(samples_[i].time > samples_[i - 1].time)) {
+      refuse(where + " has time " + text(samples_[i].time) + " s, must be above " +
+             text(samples_[i - 1].time) + " s of the sample before");
+    }
+    samples_[i].pose = checked(samples_[i].pose, where);
+  }
+  if (!(length() >= kMinLength)) {
+    refuse("has a path " + text(length()) + " m long (all points repeated), must be at least " +
+           text(kMinLength) + " m");
+  }
+}
+
+Pose Demonstration::goal_in_target() const {
+  return pose_from(target_.transform().inverse() * samples_.back().pose.transform());
+}
+
+Eigen::MatrixXd Demonstration::positions() const {
+  Eigen::MatrixXd result(samples_.size(), 3);
+  Eigen::Index row = 0;
+  for (const TimedPose& sample : samples_) {
+    result.row(row++) = sample.pose.position.transpose();
+  }
+  return result;
+}
+
+double Demonstration::length() const { return arc_lengths(samples_).back(); }
+
+Demonstration Demonstration::resampled_by_arc_length(std::size_t nodes) const {
+  if (nodes < kMinSamples) {
+    refuse("resampling to " + text(nodes) + " nodes, must be at least " + text(kMinSamples));
+  }
+  const std::vector<double> arc = arc_lengths(samples_);
+  std::vector<TimedPose> result;
+  result.reserve(nodes);
+  result.push_back(samples_.front());
+  for (std::size_t k = 1; k + 1 < nodes; ++k) {
+    const double wanted = arc.back() * static_cast<double>(k) / static_cast<double>(nodes - 1);
+    const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, wanted);
+    const auto i = static_cast<std::size_t>(after - arc.begin());
+    const double fraction = std::clamp((wanted - arc[i - 1]) / (arc[i] - arc[i - 1]), 0.0, 1.0);
+    result.push_back(interpolated(samples_[i - 1], samples_[i], fraction));
+  }
+  result.push_back(samples_.back());
+  return Demonstration(std::move(result), frame_, child_frame_, target_);
+}
+
+}  // namespace elte_planner

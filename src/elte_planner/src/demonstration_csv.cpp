@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "elte_planner/demonstration.hpp"
+
+namespace elte_planner {
+namespace {
+
+constexpr std::string_view kHeader = "time,x,y,z,qx,qy,qz,qw";
+constexpr std::array<const char*, 8> kColumns = {"time", "x", "y", "z", "qx", "qy", "qz", "qw"};
+constexpr std::array<const char*, 7> kPoseFields = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+
+std::string_view trimmed(std::string_view text) {
+  const char* const blanks = " \t\r";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> fields;
+  for (auto end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
+    fields.push_back(trimmed(text.substr(0, end)));
+    text.remove_prefix(end + 1);
+  }
+  fields.push_back(trimmed(text));
+  return fields;
+}
+
+// What has been read so far, and where, so that every refusal says file and line.
+class Reader {
+ public:
+  Reader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+
+  Demonstration read() {
+    for (std::string line; std::getline(in_, line);) {
+      ++line_number_;
+      take(trimmed(line));
+    }
+    if (in_.bad()) refuse_file("cannot be read to its end");
+    if (!header_seen_) refuse_file("has no header line '" + std::string(kHeader) + "'");
+    for (const char* key : {"frame", "child_frame", "target_pose"}) {
+      if (metadata_.count(key) == 0) refuse_file("has no line '# " + std::string(key) + ": ...'");
+    }
+    try {
+      return Demonstration(samples_, metadata_["frame"], metadata_["child_frame"], target_);
+    } catch (const std::invalid_argument& error) {
+      refuse_file(error.what());
+    }
+  }
+
+ private:
+  void take(std::string_view line) {
+    if (line.empty()) return;
+    if (line.front() == '#') {
+      take_metadata(line.substr(1));
+    } else if (header_seen_) {
+      take_row(line);
+    } else if (line == kHeader) {
+      header_seen_ = true;
+    } else {
+      refuse("header is '" + shown(line) + "', must be '" + std::string(kHeader) + "'");
+    }
+  }
+
+  void take_metadata(std::string_view line) {
+    const auto colon = line.find(':');
+    if (colon == std::string_view::npos) return;
+    const std::string key(trimmed(line.substr(0, colon)));
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    if (!metadata_.emplace(key, value).second) refuse("key '" + shown(key) + "' is given twice");
+    if (key == "target_pose") target_ = target_pose(value);
+  }
+
+  Pose target_pose(std::string_view value) const {
+    std::array<double, 7> number{};
+    std::istringstream words{std::string(value)};
+    std::string word;
+    std::size_t count = 0;
+    for (; words >> word; ++count) {
+      if (count < number.size()) number[count] = number_from(word, kPoseFields[count]);
+    }
+    if (count != number.size()) {
+      refuse("target_pose has " + std::to_string(count) + " numbers, must have 7");
+    }
+    return pose(number.data());
+  }
+
+  void take_row(std::string_view line) {
+    const std::vector<std::string_view> fields = split(line, ',');
+    if (fields.size() != kColumns.size()) {
+      refuse("has " + std::to_string(fields.size()) + " columns, must have " +
+             std::to_string(kColumns.size()));
+    }
+    std::array<double, 8> number{};
+    for (std::size_t i = 0; i < number.size(); ++i) {
+      number[i] = number_from(fields[i], kColumns[i]);
+    }
+    check_time(number[0]);
+    samples_.push_back({number[0], pose(&number[1])});
+  }
+
+  void check_time(double time) const {
+    if (samples_.empty()) {
+      if (time != 0.0) refuse("column 'time' is " + std::to_string(time) + ", must start at 0");
+    } else if (!(time > samples_.back().time)) {
+      refuse("column 'time' is " + std::to_string(time) + ", must be above " +
+             std::to_string(samples_.back().time) + " of the row before");
+    }
+  }
+
+  Pose pose(const double* xyz_qxyzw) const {
+    const Eigen::Quaterniond orientation(xyz_qxyzw[6], xyz_qxyzw[3], xyz_qxyzw[4], xyz_qxyzw[5]);
+    const double norm = orientation.norm();
+    if (!(std::abs(norm - 1.0) <= Demonstration::kQuaternionTolerance)) {
+      refuse("columns 'qx' to 'qw' have norm " + std::to_string(norm) + ", must be within " +
+             std::to_string(Demonstration::kQuaternionTolerance) + " of 1");
+    }
+    return {{xyz_qxyzw[0], xyz_qxyzw[1], xyz_qxyzw[2]}, orientation};
+  }
+
+  double number_from(std::string_view field, const char* column) const {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+      refuse("column '" + std::string(column) + "' is '" + shown(field) +
+             "', must be a finite number");
+    }
+    return value;
+  }
+
+  static std::string shown(std::string_view text) {
+    std::string result(text.substr(0, 60));
+    for (char& c : result) {
+      if (c < ' ' || c > '~') c = '?';
+    }
+    return result;
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw std::invalid_argument(name_ + ":" + std::to_string(line_number_) + ": " + what);
+  }
+
+  [[noreturn]] void refuse_file(const std::string& what) const {
+    throw std::invalid_argument(name_ + ": " + what);
+  }
+
+  std::istream& in_;
+  std::string name_;
+  std::size_t line_number_ = 0;
+  bool header_seen_ = false;
+  std::map<std::string, std::string> metadata_;
+  Pose target_;
+  std::vector<TimedPose> samples_;
+};
+
+}  // namespace
+
+Demonstration load_demonstration(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument(path + ": cannot be read");
+  return read_demonstration(file, path);
+}
+
+Demonstration read_demonstration(std::istream& in, const std::string& name) {
+  return Reader(in, name).read();
+}
+
+}  // namespace elte_planner

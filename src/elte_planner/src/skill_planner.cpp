@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/skill_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "elte_planner/elte_skill_planner.hpp"
+
+namespace elte_planner {
+
+void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonstration) {
+  const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
+  const Eigen::Index nodes = demonstration.rows();
+  if (request.previous.rows() != nodes || request.previous.cols() != demonstration.cols() ||
+      request.goal.size() != demonstration.cols()) {
+    refuse("previous plan is " + std::to_string(request.previous.rows()) + " x " +
+           std::to_string(request.previous.cols()) + " and goal has " +
+           std::to_string(request.goal.size()) + " coordinates, must be " + std::to_string(nodes) +
+           " x " + std::to_string(demonstration.cols()));
+  }
+  if (request.frozen < 2 || request.frozen > nodes) {
+    refuse("frozen is " + std::to_string(request.frozen) + ", must be within [2, " +
+           std::to_string(nodes) + "]");
+  }
+  if (!std::isfinite(request.radius) || request.radius < 0.0) {
+    refuse("radius is " + std::to_string(request.radius) + ", must be finite and at least 0");
+  }
+  if (!request.goal.allFinite()) refuse("goal has a coordinate that is not finite");
+  if (!request.previous.topRows(request.frozen).allFinite()) {
+    refuse("frozen rows of the previous plan have a coordinate that is not finite");
+  }
+}
+
+PlanResult all_frozen(const PlanRequest& request) {
+  PlanResult result;
+  result.positions = request.previous;
+  const Eigen::VectorXd end = request.previous.row(request.previous.rows() - 1).transpose();
+  result.slack = std::max((request.goal - end).lpNorm<1>() - request.radius, 0.0);
+  result.status = result.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved;
+  if (result.slack > 0.0) result.message = "every node is frozen, the end cannot move to the goal";
+  return result;
+}
+
+std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
+                                                 const Eigen::MatrixXd& demonstration,
+                                                 const ElteWeights& weights) {
+  if (name == "elte") return std::make_unique<ElteSkillPlanner>(demonstration, weights);
+  throw std::invalid_argument("planner is '" + name + "', must be one of: elte");
+}
+
+}  // namespace elte_planner

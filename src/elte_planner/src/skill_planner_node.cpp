@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <chrono>
+#include <exception>
+
+#include "conversions.hpp"
+#include "elte_planner/request_queue.hpp"
+#include "elte_planner/skill_session.hpp"
+#include "node_params.hpp"
+
+namespace elte_planner {
+namespace {
+
+constexpr double kShapeLossWarning = 0.5;
+
+class SkillPlannerNode {
+ public:
+  explicit SkillPlannerNode(const NodeParams& params)
+      : frame_(params.frame), session_(params.session, demonstration(params)) {
+    warn_of_lost_shape(params.session.weights);
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>("skill/trajectory", 100);
+    forecast_ =
+        node_.subscribe("target/forecast", 100, &SkillPlannerNode::on_forecast, this, hints);
+    progress_ =
+        node_.subscribe("execution/progress", 1000, &SkillPlannerNode::on_progress, this, hints);
+    updater_.setHardwareID("none");
+    updater_.add("planner", this, &SkillPlannerNode::diagnose);
+  }
+
+ private:
+  static Demonstration demonstration(const NodeParams& params) {
+    Demonstration loaded = load_demonstration(params.demonstration);
+    if (loaded.frame() != params.frame) {
+      throw std::invalid_argument("frame is '" + params.frame + "', must be '" + loaded.frame() +
+                                  "' as in " + params.demonstration);
+    }
+    return loaded;
+  }
+
+  void warn_of_lost_shape(const ElteWeights& weights) const {
+    const double loss = shape_loss(session_.demonstration().positions(), weights);
+    if (loss < kShapeLossWarning) return;
+    ROS_WARN(
+        "w_elastic %g pulls a plan of %zu nodes straight: %.0f %% of the demonstrated shape "
+        "is lost without any editing (a disturbance decays over %.1f nodes)",
+        weights.elastic, session_.demonstration().samples().size(), 100.0 * loss,
+        weights.decay_nodes());
+  }
+
+  bool in_planning_frame(const std_msgs::Header& header, const char* topic) {
+    if (header.frame_id == frame_) return true;
+    ++wrong_frame_;
+    ROS_WARN_THROTTLE(5.0, "%s is in frame '%s', must be '%s': dropped", topic,
+                      header.frame_id.c_str(), frame_.c_str());
+    return false;
+  }
+
+  void on_forecast(const prf_msgs::TargetForecast& message) {
+    if (!in_planning_frame(message.header, "target/forecast")) return;
+    queue_.add(forecast_from(message));
+    answer_decided_requests();
+  }
+
+  void on_progress(const prf_msgs::ExecutionProgress& message) {
+    if (!in_planning_frame(message.header, "execution/progress")) return;
+    queue_.add(progress_from(message));
+    answer_decided_requests();
+  }
+
+  void answer_decided_requests() {
+    while (const auto request = queue_.next()) {
+      if (request->new_run) {
+        ROS_INFO("stamps went back: new run");
+        session_.reset();
+      }
+      const auto start = std::chrono::steady_clock::now();
+      const SkillAnswer answer =
+          session_.answer(request->progress, request->forecast ? &*request->forecast : nullptr);
+      solve_time_ = std::chrono::steady_clock::now() - start;
+      trajectory_.publish(trajectory_from(request->progress, answer, session_));
+      ++answers_;
+      status_ = answer.status;
+      message_ = answer.message;
+      if (answer.status == AnswerStatus::kKept) {
+        ++kept_;
+        ROS_WARN_THROTTLE(5.0, "last plan kept: %s", answer.message.c_str());
+      }
+    }
+    updater_.update();
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const bool good = status_ == AnswerStatus::kSolved || answers_ == 0;
+    status.summary(
+        good ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
+        message_.empty() ? "planning" : message_);
+    status.add("answers", answers_);
+    status.add("kept plans", kept_);
+    status.add("dropped, wrong frame", wrong_frame_);
+    status.add("requests waiting for their forecast", queue_.waiting());
+    status.add("last solve time, us", 1e6 * solve_time_.count());
+  }
+
+  std::string frame_;
+  SkillSession session_;
+  RequestQueue queue_;
+  std::size_t answers_ = 0;
+  std::size_t kept_ = 0;
+  std::size_t wrong_frame_ = 0;
+  AnswerStatus status_ = AnswerStatus::kNoPlan;
+  std::string message_;
+  std::chrono::duration<double> solve_time_{0.0};
+
+  ros::NodeHandle node_;
+  ros::Publisher trajectory_;
+  ros::Subscriber forecast_;
+  ros::Subscriber progress_;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace
+}  // namespace elte_planner
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "skill_planner");
+  ros::NodeHandle private_handle("~");  // outlives the try: the last handle closes the console
+  try {
+    elte_planner::SkillPlannerNode node(elte_planner::load_node_params(private_handle));
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

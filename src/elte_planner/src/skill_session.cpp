@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/skill_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "elte_planner/confidence_radius.hpp"
+#include "elte_planner/orientation_blend.hpp"
+
+namespace elte_planner {
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+
+void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high)) {
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
+                                ", must be within [" + std::to_string(low) + ", " +
+                                std::to_string(high) + "]");
+  }
+}
+
+bool is_usable(const TargetPrediction& prediction) {
+  return std::isfinite(prediction.horizon) && prediction.target.is_finite() &&
+         prediction.covariance.allFinite() &&
+         std::abs(prediction.target.orientation.norm() - 1.0) <=
+             Demonstration::kQuaternionTolerance;
+}
+
+std::vector<Eigen::Quaterniond> orientations(const std::vector<TimedPose>& samples) {
+  std::vector<Eigen::Quaterniond> result;
+  result.reserve(samples.size());
+  for (const TimedPose& sample : samples) result.push_back(sample.pose.orientation);
+  return result;
+}
+
+}  // namespace
+
+void SessionParams::validate() const {
+  check_range("nodes", nodes, 3, 10000);
+  weights.validate();
+  check_range("horizon_max", horizon_max, 0.0, 60.0);
+  if (!(confidence > 0.0 && confidence < 1.0)) {
+    throw std::invalid_argument("confidence is " + std::to_string(confidence) +
+                                ", must be within (0, 1)");
+  }
+  check_range("radius_min", radius_min, 0.0, 1.0);
+  check_range("radius_max", radius_max, radius_min, 1.0);
+}
+
+std::optional<TargetPrediction> predicted_target(const Forecast& forecast, double horizon) {
+  const auto& predictions = forecast.predictions;
+  const auto not_rising = [](const auto& a, const auto& b) { return !(a.horizon < b.horizon); };
+  if (predictions.empty() || !std::all_of(predictions.begin(), predictions.end(), is_usable) ||
+      std::adjacent_find(predictions.begin(), predictions.end(), not_rising) != predictions.end()) {
+    return std::nullopt;
+  }
+  const auto after = std::find_if(predictions.begin(), predictions.end(),
+                                  [&](const auto& p) { return p.horizon >= horizon; });
+  if (after == predictions.begin()) return predictions.front();
+  if (after == predictions.end()) return predictions.back();
+  const TargetPrediction& a = *(after - 1);
+  const TargetPrediction& b = *after;
+  const double s = (horizon - a.horizon) / (b.horizon - a.horizon);
+  return TargetPrediction{horizon,
+                          {a.target.position + s * (b.target.position - a.target.position),
+                           a.target.orientation.slerp(s, b.target.orientation)},
+                          (1.0 - s) * a.covariance + s * b.covariance};
+}
+
+SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
+    : params_(params),
+      demonstration_(demonstration.resampled_by_arc_length(
+          static_cast<std::size_t>((params.validate(), params.nodes)))),
+      goal_in_target_(demonstration_.goal_in_target()),
+      demonstrated_orientations_(orientations(demonstration_.samples())),
+      planner_(make_skill_planner(params.planner, demonstration_.positions(), params.weights)) {}
+
+void SkillSession::reset() { plan_.reset(); }
+
+SkillAnswer SkillSession::answer(const Progress& progress, const Forecast* forecast) {
+  const Eigen::Index frozen =
+      std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes));
+  if (!params_.framework && plan_) {
+    SkillAnswer repeated = *plan_;
+    repeated.frozen = frozen;
+    return repeated;
+  }
+  if (forecast == nullptr) return keep("the forecast never came", frozen);
+  switch (forecast->status) {
+    case TargetStatus::kNoTarget:
+      return keep("no target was seen yet", frozen);
+    case TargetStatus::kLost:
+      return keep("the target is lost", frozen);
+    case TargetStatus::kCoasting:
+      if (!params_.framework) return keep("the target is not tracked yet", frozen);
+      break;
+    case TargetStatus::kTracking:
+      break;
+  }
+  const double age = kNanosecond * static_cast<double>(progress.stamp - forecast->stamp);
+  const double ahead = params_.framework ? progress.time_to_go + age : 0.0;
+  if (!std::isfinite(ahead)) return keep("time_to_go is not finite", frozen);
+  const auto target = predicted_target(*forecast, std::clamp(ahead, 0.0, params_.horizon_max));
+  if (!target) return keep("the forecast has no usable prediction", frozen);
+  try {
+    return adapt(frozen, *target);
+  } catch (const std::invalid_argument& refused) {
+    return keep(refused.what(), frozen);
+  }
+}
+
+SkillAnswer SkillSession::adapt(Eigen::Index frozen, const TargetPrediction& target) {
+  const Pose goal = pose_from(target.target.transform() * goal_in_target_.transform());
+  SkillAnswer answer;
+  answer.poses = plan_ ? plan_->poses : demonstration_.samples();
+  answer.frozen = frozen;
+  answer.radius = std::clamp(confidence_radius(target.covariance, params_.confidence),
+                             params_.radius_min, params_.radius_max);
+
+  PlanRequest request;
+  request.previous.resize(params_.nodes, 3);
+  for (Eigen::Index k = 0; k < params_.nodes; ++k) {
+    request.previous.row(k) = answer.poses[static_cast<std::size_t>(k)].pose.position.transpose();
+  }
+  request.frozen = frozen;
+  request.goal = goal.position;
+  request.radius = answer.radius;
+  const PlanResult plan = planner_->plan(request);
+  if (plan.status == PlanStatus::kFailed) return keep(plan.message, frozen);
+
+  const std::vector<Eigen::Quaterniond> blended = blend_orientations(
+      demonstrated_orientations_, orientations(answer.poses), frozen, goal.orientation);
+  for (std::size_t k = 0; k < answer.poses.size(); ++k) {
+    answer.poses[k].pose = {plan.positions.row(static_cast<Eigen::Index>(k)).transpose(),
+                            blended[k]};
+  }
+  answer.status =
+      plan.status == PlanStatus::kSolved ? AnswerStatus::kSolved : AnswerStatus::kRelaxed;
+  answer.message = plan.message;
+  answer.kkt_residual = plan.kkt_residual;
+  answer.slack = plan.slack;
+  plan_ = answer;
+  return answer;
+}
+
+SkillAnswer SkillSession::keep(const std::string& reason, Eigen::Index frozen) const {
+  SkillAnswer kept = plan_.value_or(SkillAnswer{});
+  kept.status = plan_ ? AnswerStatus::kKept : AnswerStatus::kNoPlan;
+  kept.message = reason;
+  kept.frozen = plan_ ? frozen : 0;
+  return kept;
+}
+
+}  // namespace elte_planner

@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The node from outside: one answer per named forecast, refusal of bad parameters."""
+import subprocess
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import yaml
+from prf_msgs.msg import ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
+
+FRAME = "j2s7s300_link_base"
+
+
+def forecast(stamp, y=0.0, status=TargetForecast.TRACKING, frame=FRAME):
+    message = TargetForecast(status=status)
+    message.header.stamp = rospy.Time.from_sec(stamp)
+    message.header.frame_id = frame
+    for horizon in (0.0, 1.0, 2.0):
+        prediction = TargetPrediction(horizon=rospy.Duration.from_sec(horizon))
+        prediction.pose.position.x = 0.85
+        prediction.pose.position.y = y
+        prediction.pose.position.z = 0.5
+        prediction.pose.orientation.w = 1.0
+        prediction.covariance = [1e-6 if i % 7 == 0 else 0.0 for i in range(36)]
+        message.predictions.append(prediction)
+    return message
+
+
+def progress(stamp, forecast_stamp, frozen=2):
+    message = ExecutionProgress(frozen=frozen, time_to_go=rospy.Duration.from_sec(1.0))
+    message.header.stamp = rospy.Time.from_sec(stamp)
+    message.header.frame_id = FRAME
+    message.forecast_stamp = rospy.Time.from_sec(forecast_stamp)
+    return message
+
+
+class SkillPlannerNode(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("skill_planner_node_test")
+        cls.answers = []
+        rospy.Subscriber("skill/trajectory", SkillTrajectory, cls.answers.append, queue_size=100)
+        cls.forecasts = rospy.Publisher("target/forecast", TargetForecast, queue_size=100)
+        cls.progress = rospy.Publisher("execution/progress", ExecutionProgress, queue_size=100)
+        while (cls.forecasts.get_num_connections() == 0 or cls.progress.get_num_connections() == 0):
+            rospy.rostime.wallsleep(0.02)
+        rospy.rostime.wallsleep(0.5)
+
+    def answers_after(self, *messages):
+        """Publish in this order with time between, return the answers that came."""
+        del self.answers[:]
+        for message in messages:
+            publisher = self.forecasts if isinstance(message, TargetForecast) else self.progress
+            publisher.publish(message)
+            rospy.rostime.wallsleep(0.1)
+        rospy.rostime.wallsleep(0.3)
+        return list(self.answers)
+
+    def test_1_has_no_plan_before_a_target_was_seen(self):
+        (answer,) = self.answers_after(
+            forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
+        self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
+        self.assertEqual(answer.poses, [])
+
+    def test_2_answers_each_forecast_once_with_the_stamp_of_the_progress(self):
+        (answer,) = self.answers_after(forecast(2.0), progress(2.06, 2.0), progress(2.07, 2.0))
+        self.assertEqual(answer.status, SkillTrajectory.SOLVED, answer.message)
+        self.assertEqual(answer.header.stamp, rospy.Time.from_sec(2.06))
+        self.assertEqual(answer.header.frame_id, FRAME)
+        self.assertEqual(answer.forecast_stamp, rospy.Time.from_sec(2.0))
+        self.assertEqual(answer.planner, "elte")
+        self.assertEqual(len(answer.poses), 50)
+        self.assertEqual(len(answer.time_from_start), 50)
+        self.assertEqual(answer.frozen, 2)
+        self.assertLess(answer.kkt_residual, 1e-14)
+        end = answer.poses[-1].position
+        miss = abs(end.x - 0.55) + abs(end.y) + abs(end.z - 0.5)
+        self.assertLessEqual(miss, answer.radius + 1e-9)
+
+    def test_3_waits_for_a_forecast_that_comes_after_its_progress(self):
+        (early,) = self.answers_after(forecast(3.0, y=0.1), progress(3.06, 3.0))
+        (late,) = self.answers_after(progress(4.06, 4.0), forecast(4.0, y=0.1))
+        self.assertEqual(early.poses, late.poses)
+        self.assertEqual(late.header.stamp, rospy.Time.from_sec(4.06))
+
+    def test_4_keeps_frozen_nodes_and_the_plan_of_a_lost_target(self):
+        (before,) = self.answers_after(forecast(5.0), progress(5.06, 5.0))
+        (moved,) = self.answers_after(forecast(6.0, y=0.2), progress(6.06, 6.0, frozen=20))
+        self.assertEqual(moved.poses[:20], before.poses[:20])
+        self.assertNotEqual(moved.poses[20:], before.poses[20:])
+        (kept,) = self.answers_after(
+            forecast(7.0, status=TargetForecast.LOST), progress(7.06, 7.0, frozen=20))
+        self.assertEqual(kept.status, SkillTrajectory.KEPT)
+        self.assertEqual(kept.poses, moved.poses)
+        self.assertIn("lost", kept.message)
+
+    def test_5_drops_messages_of_another_frame(self):
+        self.assertEqual(
+            self.answers_after(forecast(8.0, frame="world"), progress(8.06, 8.0)), [])
+
+    def test_6_starts_anew_when_stamps_go_back(self):
+        (answer,) = self.answers_after(
+            forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
+        self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
+
+
+class SkillPlannerParameters(unittest.TestCase):
+    def refusal(self, **changes):
+        """Exit code and output of a node started with changed parameters; None removes a key."""
+        share = rospkg.RosPack().get_path("elte_planner")
+        with open(share + "/config/skill_planner.yaml") as file:
+            values = yaml.safe_load(file)
+        values["demonstration"] = rospy.get_param("~demonstration")
+        values.update(changes)
+        values = {key: value for key, value in values.items() if value is not None}
+        if rospy.has_param("/bad_planner"):
+            rospy.delete_param("/bad_planner")
+        rospy.set_param("/bad_planner", values)
+        run = subprocess.run(
+            ["rosrun", "elte_planner", "skill_planner_node", "__name:=bad_planner"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=20, check=False)
+        return run.returncode, run.stdout
+
+    def check(self, expected, **changes):
+        code, output = self.refusal(**changes)
+        self.assertEqual(code, 2, output)
+        fatal = [line for line in output.splitlines() if "FATAL" in line]
+        self.assertEqual(len(fatal), 1, output)
+        self.assertIn(expected, fatal[0])
+
+    def test_bad_values_are_refused_by_name(self):
+        self.check("nodes is 2", nodes=2)
+        self.check("nodes is 50.5", nodes=50.5)
+        self.check("w_elastic is -", w_elastic=-0.001)
+        self.check("w_bending is nan", w_bending=float("nan"))
+        self.check("planner is 'bezier'", planner="bezier")
+        self.check("framework is yes", framework="yes")
+        self.check("horizon_max is -1", horizon_max=-1)
+        self.check("confidence is 1", confidence=1.0)
+        self.check("radius_min is -", radius_min=-0.01)
+        self.check("radius_max is 5", radius_max=5.0)
+        self.check("frame is 'world'", frame="world")
+        self.check("/nonexistent.csv: cannot be read", demonstration="/nonexistent.csv")
+
+    def test_missing_and_unknown_keys_are_refused_by_name(self):
+        self.check("nodes is missing", nodes=None)
+        self.check("nodez is not a parameter", nodez=50)
+
+
+class Suite(unittest.TestSuite):
+    def __init__(self):
+        load = unittest.defaultTestLoader.loadTestsFromTestCase
+        super().__init__([load(SkillPlannerNode), load(SkillPlannerParameters)])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("elte_planner", "skill_planner_node", "__main__.Suite", sys.argv)

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/request_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace elte_planner {
+namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+Progress progress(std::int64_t stamp_ms, std::int64_t forecast_ms) {
+  return {stamp_ms * kMillisecond, forecast_ms * kMillisecond, 2, 1.0};
+}
+
+Forecast forecast(std::int64_t stamp_ms) {
+  return {stamp_ms * kMillisecond, TargetStatus::kTracking, {}};
+}
+
+std::vector<JoinedRequest> drained(RequestQueue& queue) {
+  std::vector<JoinedRequest> result;
+  while (auto request = queue.next()) result.push_back(*request);
+  return result;
+}
+
+TEST(RequestQueue, AsksOnceForEveryForecastNamed) {
+  RequestQueue queue;
+  queue.add(forecast(100));
+  queue.add(progress(160, 0));
+  queue.add(progress(170, 100));
+  queue.add(progress(180, 100));
+  const auto requests = drained(queue);
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_EQ(requests[0].progress.stamp, 170 * kMillisecond);
+  ASSERT_TRUE(requests[0].forecast);
+  EXPECT_EQ(requests[0].forecast->stamp, 100 * kMillisecond);
+}
+
+TEST(RequestQueue, GivesTheSameRequestsInAnyOrderBetweenTheTopics) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 500; ++trial) {
+    RequestQueue queue;
+    std::vector<JoinedRequest> requests;
+    std::int64_t next_forecast = 100;
+    std::int64_t next_progress = 170;
+    while (next_forecast <= 2000 || next_progress <= 2070) {
+      const bool forecast_first = std::bernoulli_distribution(0.5)(random);
+      if ((forecast_first && next_forecast <= 2000) || next_progress > 2070) {
+        queue.add(forecast(next_forecast));
+        next_forecast += 100;
+      } else {
+        queue.add(progress(next_progress, (next_progress - 70) / 100 * 100));
+        next_progress += 10;
+      }
+      for (const auto& request : drained(queue)) requests.push_back(request);
+    }
+    ASSERT_EQ(requests.size(), 20u);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const std::int64_t stamp = 100 * static_cast<std::int64_t>(i + 1);
+      ASSERT_EQ(requests[i].progress.forecast_stamp, stamp * kMillisecond);
+      ASSERT_EQ(requests[i].progress.stamp, (stamp + 70) * kMillisecond);
+      ASSERT_TRUE(requests[i].forecast);
+      ASSERT_EQ(requests[i].forecast->stamp, stamp * kMillisecond);
+    }
+  }
+}
+
+TEST(RequestQueue, WaitsForAForecastOnlyUntilANewerOneCame) {
+  RequestQueue queue;
+  queue.add(forecast(100));
+  queue.add(progress(260, 200));
+  EXPECT_TRUE(drained(queue).empty());
+  EXPECT_EQ(queue.waiting(), 1u);
+  queue.add(forecast(300));
+  const auto requests = drained(queue);
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_FALSE(requests[0].forecast);
+}
+
+TEST(RequestQueue, StartsANewRunWhenStampsGoBack) {
+  for (const bool forecast_first : {true, false}) {
+    RequestQueue queue;
+    queue.add(forecast(50'000));
+    queue.add(progress(50'060, 50'000));
+    EXPECT_EQ(drained(queue).size(), 1u);
+    queue.add(forecast(50'033));
+    if (forecast_first) {
+      queue.add(forecast(100));
+      queue.add(progress(160, 100));
+    } else {
+      queue.add(progress(160, 100));
+      EXPECT_TRUE(drained(queue).empty());
+      queue.add(forecast(100));
+    }
+    const auto requests = drained(queue);
+    ASSERT_EQ(requests.size(), 1u);
+    EXPECT_TRUE(requests[0].new_run);
+    EXPECT_TRUE(requests[0].forecast);
+  }
+}
+
+TEST(RequestQueue, IgnoresForecastsNamedAgainLater) {
+  RequestQueue queue;
+  for (const std::int64_t stamp : {100, 133, 166}) queue.add(forecast(stamp));
+  queue.add(progress(200, 133));
+  queue.add(progress(210, 100));
+  queue.add(progress(220, 166));
+  const auto requests = drained(queue);
+  ASSERT_EQ(requests.size(), 2u);
+  EXPECT_EQ(requests[1].progress.stamp, 220 * kMillisecond);
+  EXPECT_FALSE(requests[1].new_run);
+}
+
+TEST(RequestQueue, HoldsABoundedNumberOfForecasts) {
+  RequestQueue queue;
+  for (std::int64_t stamp = 1; stamp <= 5000; ++stamp) queue.add(forecast(stamp));
+  queue.add(progress(5000, 100));
+  ASSERT_EQ(drained(queue).size(), 1u);
+}
+
+}  // namespace
+}  // namespace elte_planner

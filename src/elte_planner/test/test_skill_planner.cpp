@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/skill_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "random_problems.hpp"
+
+namespace elte_planner {
+namespace {
+
+class SkillPlannerTest : public testing::TestWithParam<const char*> {
+ protected:
+  SkillPlannerTest() {
+    std::mt19937 random(1);
+    demonstration_ = random_demonstration(50, 3, random);
+    planner_ = make_skill_planner(GetParam(), demonstration_, {});
+    request_.previous = demonstration_;
+    request_.goal = demonstration_.row(49).transpose() + Eigen::Vector3d(0.05, -0.1, 0.02);
+  }
+
+  Eigen::VectorXd end(const PlanResult& plan) const {
+    return plan.positions.row(plan.positions.rows() - 1).transpose();
+  }
+
+  Eigen::MatrixXd demonstration_;
+  std::unique_ptr<SkillPlanner> planner_;
+  PlanRequest request_;
+};
+
+TEST_P(SkillPlannerTest, NamesItself) { EXPECT_EQ(planner_->name(), GetParam()); }
+
+TEST_P(SkillPlannerTest, KeepsFrozenRowsAndReachesTheBall) {
+  for (const Eigen::Index frozen : {2, 3, 20, 48, 49}) {
+    for (const double radius : {0.0, 0.02, 0.5}) {
+      request_.frozen = frozen;
+      request_.radius = radius;
+      const PlanResult plan = planner_->plan(request_);
+      ASSERT_EQ(plan.status, PlanStatus::kSolved);
+      ASSERT_EQ(plan.positions.rows(), 50);
+      EXPECT_EQ(plan.positions.topRows(frozen), demonstration_.topRows(frozen));
+      EXPECT_LE((end(plan) - request_.goal).lpNorm<1>(), radius + 1e-12);
+      EXPECT_LE(plan.kkt_residual, 1e-14);
+      EXPECT_TRUE(plan.positions.allFinite());
+    }
+  }
+}
+
+TEST_P(SkillPlannerTest, SaysByHowMuchTheEndIsMissedWhenAllIsFrozen) {
+  request_.frozen = 50;
+  request_.radius = 0.05;
+  const PlanResult plan = planner_->plan(request_);
+  EXPECT_EQ(plan.status, PlanStatus::kRelaxed);
+  EXPECT_NEAR(plan.slack, 0.17 - 0.05, 1e-12);
+  EXPECT_EQ(plan.positions, demonstration_);
+  request_.radius = 0.2;
+  EXPECT_EQ(planner_->plan(request_).status, PlanStatus::kSolved);
+}
+
+TEST_P(SkillPlannerTest, RefusesRequestsThatDoNotFit) {
+  const auto refused = [this](auto&& change) {
+    PlanRequest request = request_;
+    change(request);
+    EXPECT_THROW((void)planner_->plan(request), std::invalid_argument);
+  };
+  refused([](PlanRequest& r) { r.frozen = 1; });
+  refused([](PlanRequest& r) { r.frozen = 51; });
+  refused([](PlanRequest& r) { r.radius = -0.1; });
+  refused([](PlanRequest& r) { r.radius = std::nan(""); });
+  refused([](PlanRequest& r) { r.goal = Eigen::Vector2d(0.0, 0.0); });
+  refused([](PlanRequest& r) { r.goal[1] = std::nan(""); });
+  refused([](PlanRequest& r) { r.previous(0, 0) = std::nan(""); });
+  refused([](PlanRequest& r) { r.previous = Eigen::MatrixXd::Zero(49, 3); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, SkillPlannerTest, testing::Values("elte"));
+
+TEST(SkillPlannerFactory, ListsTheKnownNamesWhenRefusing) {
+  std::mt19937 random(2);
+  const Eigen::MatrixXd demonstration = random_demonstration(10, 3, random);
+  try {
+    (void)make_skill_planner("splines", demonstration, {});
+    FAIL() << "accepted an unknown planner";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("splines"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("elte"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace elte_planner

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/skill_session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "elte_planner/confidence_radius.hpp"
+
+namespace elte_planner {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+Demonstration reach() {
+  std::vector<TimedPose> samples;
+  for (int i = 0; i <= 200; ++i) {
+    const double s = i / 200.0;
+    samples.push_back({0.04 * i,
+                       {{0.3 + 0.3 * s, 0.1 * std::sin(M_PI * s), 0.2 + 0.2 * s * s},
+                        Eigen::Quaterniond(Eigen::AngleAxisd(0.6 * s, Eigen::Vector3d::UnitY()))}});
+  }
+  const Pose target{{1.0, 0.0, 0.5},
+                    Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()))};
+  return Demonstration(samples, "arm", "hand", target);
+}
+
+SessionParams params() {
+  SessionParams result;
+  result.planner = "elte";
+  result.nodes = 50;
+  result.horizon_max = 2.0;
+  result.confidence = 0.5;
+  result.radius_min = 0.001;
+  result.radius_max = 0.02;
+  return result;
+}
+
+TargetPrediction prediction(double horizon, const Eigen::Vector3d& offset, double deviation) {
+  Pose target = reach().target();
+  target.position += offset;
+  return {horizon, target, deviation * deviation * Eigen::Matrix3d::Identity()};
+}
+
+// Drifts by 0.1 m/s along y, deviation growing from 1 mm by 10 mm/s.
+Forecast drifting(TargetStatus status = TargetStatus::kTracking) {
+  Forecast forecast{10 * kSecond, status, {}};
+  for (const double horizon : {0.0, 0.5, 1.0, 2.0, 4.0}) {
+    forecast.predictions.push_back(
+        prediction(horizon, {0.0, 0.1 * horizon, 0.02}, 0.001 + 0.01 * horizon));
+  }
+  return forecast;
+}
+
+Progress at(Eigen::Index frozen, double time_to_go) {
+  return {10 * kSecond + kSecond / 10, 10 * kSecond, frozen, time_to_go};
+}
+
+double end_distance(const SkillAnswer& answer, const Pose& goal) {
+  return (answer.poses.back().pose.position - goal.position).lpNorm<1>();
+}
+
+TEST(SkillSession, EndsAtTheDemonstratedPoseRelativeToThePredictedTarget) {
+  SkillSession session(params(), reach());
+  const Forecast forecast = drifting();
+  const SkillAnswer answer = session.answer(at(2, 0.65), &forecast);
+  ASSERT_EQ(answer.status, AnswerStatus::kSolved) << answer.message;
+  ASSERT_EQ(answer.poses.size(), 50u);
+  // 0.65 s to go and a forecast 0.1 s old: the target in 0.75 s.
+  const Pose target = prediction(0.75, {0.0, 0.075, 0.02}, 0.0).target;
+  const Pose goal = pose_from(target.transform() * reach().goal_in_target().transform());
+  EXPECT_LE(end_distance(answer, goal), answer.radius + 1e-12);
+  EXPECT_LT(answer.poses.back().pose.orientation.angularDistance(goal.orientation), 1e-7);
+  EXPECT_LE(answer.kkt_residual, 1e-14);
+  EXPECT_EQ(answer.poses[1].time, reach().resampled_by_arc_length(50).samples()[1].time);
+}
+
+TEST(SkillSession, LooksNoFartherAheadThanAllowed) {
+  SkillSession near(params(), reach());
+  SkillSession far(params(), reach());
+  const Forecast forecast = drifting();
+  EXPECT_EQ(near.answer(at(2, 1.9), &forecast).poses.back().pose.position,
+            far.answer(at(2, 50.0), &forecast).poses.back().pose.position);
+}
+
+TEST(SkillSession, OpensTheBallWithTheUncertaintyBetweenItsBounds) {
+  SessionParams wide = params();
+  wide.radius_min = 0.0;
+  wide.radius_max = 1.0;
+  SkillSession session(wide, reach());
+  const Forecast forecast = drifting();
+  const double radius = session.answer(at(2, 0.9), &forecast).radius;
+  EXPECT_NEAR(radius, confidence_radius(0.011 * 0.011 * Eigen::Matrix3d::Identity(), 0.5), 1e-3);
+  SkillSession bounded(params(), reach());
+  EXPECT_EQ(bounded.answer(at(2, 1.9), &forecast).radius, 0.02);
+  SessionParams loose = params();
+  loose.radius_min = 0.02;
+  EXPECT_EQ(SkillSession(loose, reach()).answer(at(2, 0.0), &forecast).radius, 0.02);
+}
+
+TEST(SkillSession, KeepsFrozenNodesOfThePreviousPlan) {
+  SkillSession session(params(), reach());
+  const Forecast forecast = drifting();
+  const SkillAnswer first = session.answer(at(2, 1.0), &forecast);
+  const SkillAnswer second = session.answer(at(20, 0.2), &forecast);
+  EXPECT_EQ(second.frozen, 20);
+  for (std::size_t k = 0; k < 20; ++k) {
+    EXPECT_EQ(second.poses[k].pose.position, first.poses[k].pose.position);
+    EXPECT_EQ(second.poses[k].pose.orientation.coeffs(), first.poses[k].pose.orientation.coeffs());
+  }
+  EXPECT_NE(second.poses[30].pose.position, first.poses[30].pose.position);
+}
+
+TEST(SkillSession, HasNoPlanUntilThereIsATarget) {
+  SkillSession session(params(), reach());
+  const Forecast nothing{10 * kSecond, TargetStatus::kNoTarget, {}};
+  const Forecast lost = drifting(TargetStatus::kLost);
+  for (const Forecast* forecast : {&nothing, &lost, static_cast<const Forecast*>(nullptr)}) {
+    const SkillAnswer answer = session.answer(at(2, 1.0), forecast);
+    EXPECT_EQ(answer.status, AnswerStatus::kNoPlan);
+    EXPECT_TRUE(answer.poses.empty());
+    EXPECT_FALSE(answer.message.empty());
+  }
+}
+
+TEST(SkillSession, KeepsTheLastPlanWhenTheForecastIsOfNoUse) {
+  SkillSession session(params(), reach());
+  const Forecast good = drifting();
+  const SkillAnswer first = session.answer(at(2, 1.0), &good);
+
+  std::vector<Forecast> useless(6, good);
+  useless[0].status = TargetStatus::kLost;
+  useless[1].predictions.clear();
+  useless[2].predictions[1].target.position.x() = std::nan("");
+  useless[3].predictions[1].target.orientation.coeffs().setZero();
+  useless[4].predictions[0].covariance = -Eigen::Matrix3d::Identity();
+  useless[4].predictions.resize(1);
+  useless[5].predictions[2].horizon = 0.5;
+  for (const Forecast& forecast : useless) {
+    const SkillAnswer answer = session.answer(at(10, 0.6), &forecast);
+    EXPECT_EQ(answer.status, AnswerStatus::kKept);
+    EXPECT_FALSE(answer.message.empty());
+    ASSERT_EQ(answer.poses.size(), first.poses.size());
+    for (std::size_t k = 0; k < first.poses.size(); ++k) {
+      EXPECT_EQ(answer.poses[k].pose.position, first.poses[k].pose.position);
+    }
+  }
+  EXPECT_EQ(session.answer(at(10, std::nan("")), &good).status, AnswerStatus::kKept);
+  EXPECT_EQ(session.answer(at(10, 0.6), nullptr).status, AnswerStatus::kKept);
+}
+
+TEST(SkillSession, PlansOnWhileTheForecastCoasts) {
+  SkillSession session(params(), reach());
+  const Forecast coasting = drifting(TargetStatus::kCoasting);
+  EXPECT_EQ(session.answer(at(2, 1.0), &coasting).status, AnswerStatus::kSolved);
+}
+
+TEST(SkillSession, SaysTheSlackWhenAllNodesAreFrozen) {
+  SkillSession session(params(), reach());
+  const Forecast forecast = drifting();
+  (void)session.answer(at(2, 2.0), &forecast);
+  const SkillAnswer answer = session.answer(at(1000, 0.0), &forecast);
+  EXPECT_EQ(answer.status, AnswerStatus::kRelaxed);
+  EXPECT_EQ(answer.frozen, 50);
+  EXPECT_GT(answer.slack, 0.1);
+}
+
+TEST(SkillSession, AdaptsOnceToTheFirstTrackedTargetWithoutTheFramework) {
+  SessionParams blind = params();
+  blind.framework = false;
+  SkillSession session(blind, reach());
+  const Forecast coasting = drifting(TargetStatus::kCoasting);
+  EXPECT_EQ(session.answer(at(2, 1.0), &coasting).status, AnswerStatus::kNoPlan);
+  const Forecast first = drifting();
+  const SkillAnswer adapted = session.answer(at(2, 1.0), &first);
+  ASSERT_EQ(adapted.status, AnswerStatus::kSolved);
+  const Pose goal =
+      pose_from(first.predictions[0].target.transform() * reach().goal_in_target().transform());
+  EXPECT_LE(end_distance(adapted, goal), adapted.radius + 1e-12);
+
+  Forecast moved = first;
+  for (TargetPrediction& p : moved.predictions) p.target.position.x() += 0.2;
+  const Forecast lost = drifting(TargetStatus::kLost);
+  for (const Forecast* later : {static_cast<const Forecast*>(&moved), &lost}) {
+    const SkillAnswer repeated = session.answer(at(30, 0.3), later);
+    EXPECT_EQ(repeated.status, AnswerStatus::kSolved);
+    for (std::size_t k = 0; k < 50; ++k) {
+      EXPECT_EQ(repeated.poses[k].pose.position, adapted.poses[k].pose.position);
+    }
+  }
+}
+
+TEST(SkillSession, ForgetsThePlanInANewRun) {
+  SkillSession session(params(), reach());
+  const Forecast forecast = drifting();
+  (void)session.answer(at(2, 1.0), &forecast);
+  session.reset();
+  EXPECT_EQ(session.answer(at(2, 1.0), nullptr).status, AnswerStatus::kNoPlan);
+}
+
+TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
+  const auto refused = [](const std::string& name, auto&& change) {
+    SessionParams bad = params();
+    change(bad);
+    try {
+      SkillSession session(bad, reach());
+      FAIL() << name << " accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  };
+  refused("planner", [](SessionParams& p) { p.planner = "bezier"; });
+  refused("nodes", [](SessionParams& p) { p.nodes = 2; });
+  refused("nodes", [](SessionParams& p) { p.nodes = -1; });
+  refused("w_elastic", [](SessionParams& p) { p.weights.elastic = -1.0; });
+  refused("w_bending", [](SessionParams& p) { p.weights.bending = std::nan(""); });
+  refused("horizon_max", [](SessionParams& p) { p.horizon_max = std::nan(""); });
+  refused("confidence", [](SessionParams& p) { p.confidence = 1.0; });
+  refused("radius_min", [](SessionParams& p) { p.radius_min = -0.1; });
+  refused("radius_max", [](SessionParams& p) { p.radius_max = 0.0005; });
+}
+
+}  // namespace
+}  // namespace elte_planner
