@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One tick of the decision: belief, guards, state machine, cursor, set-point.
+//
+// framework true: the HMM and the guards steer the execution and the hand follows the forecast at
+// its end. false: blind, the skill is executed to its end whatever the target does, and the last
+// pose is held.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "prf_decision/decision_fsm.hpp"
+#include "prf_decision/guards.hpp"
+#include "prf_decision/hmm.hpp"
+#include "prf_decision/motion.hpp"
+#include "prf_decision/setpoint_limiter.hpp"
+#include "prf_decision/tick_gate.hpp"
+
+namespace prf_decision {
+
+struct DecisionParameters {
+  bool framework = true;
+  Duration max_gap{0};            // between ticks, beyond it joint_states count as silent
+  Duration lead{0};               // the followed goal is taken this long after the tick
+  Duration hold_time{0};          // the target must be tracked for this long
+  Duration dwell_time{0};         // least time in a state before the HMM may change it
+  Duration time_limit{0};         // from the first tick
+  double tracking_tolerance = 0;  // set-point to goal, m
+  CatchUpSpeed catch_up_speed;
+  GuardParameters guards;
+  HmmParameters hmm;
+
+  // std::invalid_argument names the parameter, its value and the bound.
+  void validate() const;
+};
+
+struct Progress {
+  Stamp stamp{0};
+  Stamp forecast_stamp{0};  // 0: none in force
+  State state = State::kWaiting;
+  std::string reason;  // why the state holds; empty while nothing is to be said
+  Eigen::Vector3d posterior = Eigen::Vector3d::Zero();
+  double cursor = 0;
+  std::size_t frozen = 0;
+  Duration time_to_go{0};
+};
+
+struct Outcome {
+  Progress progress;
+  std::optional<MovingPose> setpoint;  // none: hold
+};
+
+class Decision {
+ public:
+  // Validates the parameters.
+  explicit Decision(const DecisionParameters& parameters);
+
+  [[nodiscard]] Outcome update(const Tick& tick);
+
+ private:
+  struct Assessment {
+    Event event;
+    std::string reason;
+    bool objected;  // a guard spoke, not the HMM
+  };
+
+  void take_in(const Tick& tick);
+  [[nodiscard]] std::optional<Objection> object_to_target(const Tick& tick) const;
+  [[nodiscard]] std::optional<Objection> object(const Tick& tick) const;
+  [[nodiscard]] Assessment assess(const Tick& tick) const;
+  void change_state(const Tick& tick, const Assessment& assessment);
+  [[nodiscard]] bool try_event(Stamp stamp, Event event, const std::string& reason);
+  [[nodiscard]] MovingPose goal_at(Stamp stamp) const;
+  [[nodiscard]] std::optional<MovingPose> reference(Stamp stamp, bool objected) const;
+  [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool objected);
+  [[nodiscard]] Progress report(Stamp stamp) const;
+
+  DecisionParameters parameters_;
+  HmmFilter hmm_;
+  HmmBelief belief_;
+  State state_ = State::kWaiting;
+  std::string reason_;
+  std::optional<Stamp> first_tick_;
+  Stamp last_tick_{0};
+  Stamp entered_{0};  // when the state was entered
+  std::shared_ptr<const Forecast> forecast_;
+  std::shared_ptr<const Trajectory> plan_;
+  std::optional<std::string> plan_refusal_;  // the planner's last answer had no plan
+  std::optional<Stamp> last_seen_;           // last measurement of the target
+  std::optional<Stamp> tracked_since_;
+  std::optional<Pose> setpoint_;
+  double cursor_ = 0;
+};
+
+}  // namespace prf_decision

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hidden Markov model of what the target's motion allows: go forward, pause, or go back.
+//
+// Observation o: velocity of the target in the planning frame, m/s. Hidden state i in the order
+// Forward, Pause, Reverse, with Gaussian emission b_i(o) = N(o; mean_i, covariance_i).
+// Forward filter (Rabiner 1989, scaled), one step per observation:
+//   predicted_j = sum_i posterior_i A_ij,   posterior_j = predicted_j b_j(o) / sum_k (same)
+// The first observation uses the initial distribution as predicted.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+namespace prf_decision {
+
+enum class Intent { kForward, kPause, kReverse };
+inline constexpr std::size_t kIntents = 3;
+inline constexpr std::array<const char*, kIntents> kIntentNames{"forward", "pause", "reverse"};
+
+struct HmmParameters {
+  Eigen::Vector3d initial = Eigen::Vector3d::Zero();     // probabilities, sum 1
+  Eigen::Matrix3d transition = Eigen::Matrix3d::Zero();  // row: from, column: to; rows sum to 1
+  std::array<Eigen::Vector3d, kIntents> mean{};          // m/s
+  std::array<Eigen::Matrix3d, kIntents> covariance{};    // m^2/s^2, positive definite
+
+  // std::invalid_argument names the entry, its value and the bound. Besides probabilities and
+  // covariances it refuses states in the wrong order (E|o|^2 = |mean|^2 + tr covariance must rise)
+  // and dead ones (every state must be reachable from every other).
+  void validate() const;
+};
+
+struct HmmBelief {
+  Eigen::Vector3d posterior = Eigen::Vector3d::Zero();  // sums to 1
+  bool started = false;                                 // an observation or a prediction was made
+  double log_likelihood = 0;                            // of all observations so far
+};
+
+class HmmFilter {
+ public:
+  // Validates the parameters.
+  explicit HmmFilter(const HmmParameters& parameters);
+
+  [[nodiscard]] HmmBelief initial_belief() const;
+
+  // One period with an observation. Its velocity must be finite.
+  [[nodiscard]] HmmBelief observe(const HmmBelief& belief, const Eigen::Vector3d& velocity) const;
+
+  // One period without: the belief drifts toward the stationary distribution.
+  [[nodiscard]] HmmBelief predict(const HmmBelief& belief) const;
+
+  // ln b_i(velocity) of each state.
+  [[nodiscard]] Eigen::Vector3d log_emission(const Eigen::Vector3d& velocity) const;
+
+ private:
+  HmmParameters parameters_;
+  std::array<Eigen::Matrix3d, kIntents> whitening_;  // W with W^T W = covariance^-1
+  Eigen::Vector3d log_norm_;                         // ln of the density at the mean
+};
+
+// The most probable state; the more cautious one when equal.
+[[nodiscard]] Intent most_probable(const HmmBelief& belief);
+
+}  // namespace prf_decision

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The readable YAML file of HMM parameters; see config/hmm_default.yaml for its form.
+#pragma once
+
+#include <string>
+
+#include "prf_decision/hmm.hpp"
+
+namespace prf_decision {
+
+// std::invalid_argument names the file, the key, the value and the bound.
+[[nodiscard]] HmmParameters load_hmm(const std::string& path);
+
+}  // namespace prf_decision

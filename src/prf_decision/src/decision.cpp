@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/decision.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "prf_decision/execution_cursor.hpp"
+#include "text.hpp"
+
+namespace prf_decision {
+namespace {
+
+void require(bool holds, const char* name, double value, const char* bound) {
+  if (!holds) {
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + ", must be " +
+                                bound);
+  }
+}
+
+Objection hazard(std::string reason) { return {Event::kHazard, std::move(reason)}; }
+
+Event event_of(Intent intent) {
+  switch (intent) {
+    case Intent::kForward:
+      return Event::kCalm;
+    case Intent::kPause:
+      return Event::kUnsteady;
+    case Intent::kReverse:
+      break;
+  }
+  return Event::kUnstable;
+}
+
+bool acts_on_plan(State state) {
+  return state == State::kForward || state == State::kReverse || state == State::kRetract;
+}
+
+bool follows_target(State state) { return state == State::kTracking || state == State::kDone; }
+
+// States whose reason is what the assessment says now, not what led into them.
+bool explains_itself(State state) {
+  return state == State::kWaiting || state == State::kPause || state == State::kReverse ||
+         state == State::kRetract;
+}
+
+}  // namespace
+
+void DecisionParameters::validate() const {
+  require(max_gap > Duration{0}, "max_wait", to_seconds(max_gap), "> 0");
+  require(lead >= Duration{0}, "lead", to_seconds(lead), ">= 0");
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0");
+  require(dwell_time >= Duration{0}, "dwell_time", to_seconds(dwell_time), ">= 0");
+  require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0");
+  require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
+          tracking_tolerance, "> 0");
+  catch_up_speed.validate();
+  guards.validate();
+  hmm.validate();
+}
+
+Decision::Decision(const DecisionParameters& parameters)
+    : parameters_((parameters.validate(), parameters)),
+      hmm_(parameters.hmm),
+      belief_(hmm_.initial_belief()) {}
+
+Outcome Decision::update(const Tick& tick) {
+  if (!first_tick_) first_tick_ = last_tick_ = entered_ = tick.stamp;
+  take_in(tick);
+  const Assessment assessment = assess(tick);
+  change_state(tick, assessment);
+  const std::optional<MovingPose> setpoint = move(tick, assessment.objected);
+  last_tick_ = tick.stamp;
+  return {report(tick.stamp), setpoint};
+}
+
+void Decision::take_in(const Tick& tick) {
+  for (const auto& [stamp, forecast] : tick.forecasts) {
+    const bool tracked = forecast && forecast->status == TargetStatus::kTracking;
+    belief_ = tracked ? hmm_.observe(belief_, forecast->predictions[0].target.linear_velocity)
+                      : hmm_.predict(belief_);
+    if (!forecast) continue;
+    forecast_ = forecast;
+    if (forecast->status != TargetStatus::kNoTarget) {
+      const Stamp seen = stamp - forecast->since_measurement;
+      last_seen_ = std::max(last_seen_.value_or(seen), seen);
+    }
+  }
+  if (!tick.answer) return;
+  plan_refusal_.reset();
+  if (!tick.answer->plan) {
+    plan_refusal_ = tick.answer->message;
+    return;
+  }
+  plan_ = tick.answer->plan;
+  cursor_ = std::min(cursor_, static_cast<double>(plan_->poses.size() - 1));
+}
+
+std::optional<Objection> Decision::object_to_target(const Tick& tick) const {
+  if (!last_seen_) return hazard("target not seen yet");
+  if (const auto objection = object_to_age(parameters_.guards, tick.stamp - *last_seen_)) {
+    return objection;
+  }
+  if (tick.forecast_stale) {
+    return hazard(
+        sentence("forecast silent for ", to_seconds(tick.stamp - forecast_->stamp), " s"));
+  }
+  if (forecast_->status == TargetStatus::kNoTarget || forecast_->status == TargetStatus::kLost) {
+    return hazard("predictor has lost the target");
+  }
+  return object_to_forecast(parameters_.guards, *forecast_);
+}
+
+std::optional<Objection> Decision::object(const Tick& tick) const {
+  const Duration gap = tick.stamp - last_tick_;
+  if (gap > parameters_.max_gap) {
+    return hazard(sentence("joint_states silent for ", to_seconds(gap), " s"));
+  }
+  if (parameters_.framework) {
+    if (const auto objection = object_to_target(tick)) return objection;
+  }
+  if (!plan_) return hazard("no plan yet" + (plan_refusal_ ? ": " + *plan_refusal_ : ""));
+  if (!parameters_.framework) return std::nullopt;
+  if (tick.plan_stale) return hazard("planner silent");
+  if (plan_refusal_) return hazard("planner has no plan: " + *plan_refusal_);
+  return object_to_goal(parameters_.guards, goal_at(tick.stamp + parameters_.lead).pose.position);
+}
+
+Decision::Assessment Decision::assess(const Tick& tick) const {
+  if (const auto objection = object(tick)) return {objection->event, objection->reason, true};
+  if (!parameters_.framework) return {Event::kCalm, "", false};
+  const Intent intent = most_probable(belief_);
+  if (intent == Intent::kForward) return {Event::kCalm, "", false};
+  const auto index = static_cast<std::size_t>(intent);
+  const double speed = forecast_->predictions[0].target.linear_velocity.norm();
+  return {event_of(intent),
+          sentence("belief in ", kIntentNames[index], " ",
+                   belief_.posterior[static_cast<Eigen::Index>(index)], ", target speed ", speed,
+                   " m/s"),
+          false};
+}
+
+bool Decision::try_event(Stamp stamp, Event event, const std::string& reason) {
+  const bool dwelled = stamp - entered_ >= parameters_.dwell_time;
+  const State next = step(state_, event, dwelled);
+  if (next == state_) return false;
+  state_ = next;
+  entered_ = stamp;
+  reason_ = reason;
+  return true;
+}
+
+// At most one change per tick: the first event, in this order, that has a row.
+void Decision::change_state(const Tick& tick, const Assessment& assessment) {
+  const Duration elapsed = tick.stamp - *first_tick_;
+  if (elapsed > parameters_.time_limit &&
+      try_event(tick.stamp, Event::kTimeUp,
+                sentence("not done within ", to_seconds(parameters_.time_limit), " s"))) {
+    return;
+  }
+  if (try_event(tick.stamp, assessment.event, assessment.reason)) return;
+  if (plan_ && at_end(*plan_, cursor_) &&
+      try_event(tick.stamp, Event::kComplete,
+                sentence("skill complete after ", to_seconds(elapsed), " s"))) {
+    return;
+  }
+  const bool held = tracked_since_ && tick.stamp - *tracked_since_ >= parameters_.hold_time;
+  if (held && try_event(tick.stamp, Event::kHeld,
+                        sentence("tracked for ", to_seconds(parameters_.hold_time), " s"))) {
+    return;
+  }
+  if (explains_itself(state_) && !assessment.reason.empty()) reason_ = assessment.reason;
+}
+
+MovingPose Decision::goal_at(Stamp stamp) const {
+  return attached(target_at(*forecast_, stamp), plan_->goal_in_target);
+}
+
+std::optional<MovingPose> Decision::reference(Stamp stamp, bool objected) const {
+  if (state_ == State::kForward) return hand_at(*plan_, cursor_, Direction::kForward);
+  if (acts_on_plan(state_)) {
+    return hand_at(*plan_, cursor_, cursor_ > 0 ? Direction::kBack : Direction::kStand);
+  }
+  if (!follows_target(state_)) return std::nullopt;
+  if (!parameters_.framework) return hand_at(*plan_, cursor_, Direction::kStand);
+  if (objected) return std::nullopt;
+  return goal_at(stamp + parameters_.lead);
+}
+
+std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
+  const Duration dt = tick.stamp - last_tick_;
+  if (acts_on_plan(state_)) {
+    const auto direction = state_ == State::kForward ? Direction::kForward : Direction::kBack;
+    cursor_ = advance_cursor(*plan_, cursor_, direction, dt);
+  }
+  const std::optional<MovingPose> wanted = reference(tick.stamp, objected);
+  const bool holds = state_ == State::kWaiting || state_ == State::kStopped;
+  std::optional<MovingPose> setpoint;
+  if (wanted) {
+    setpoint =
+        setpoint_ ? limited_setpoint(*setpoint_, *wanted, parameters_.catch_up_speed, dt) : *wanted;
+    setpoint_ = setpoint->pose;
+  } else if (!holds && setpoint_) {
+    setpoint = MovingPose{*setpoint_, {0, 0, 0}, {0, 0, 0}};
+  }
+
+  const bool tracked =
+      wanted && state_ == State::kTracking &&
+      (wanted->pose.position - setpoint->pose.position).norm() <= parameters_.tracking_tolerance;
+  if (!tracked) {
+    tracked_since_.reset();
+  } else if (!tracked_since_) {
+    tracked_since_ = tick.stamp;
+  }
+  return setpoint;
+}
+
+Progress Decision::report(Stamp stamp) const {
+  Progress progress;
+  progress.stamp = stamp;
+  if (forecast_) progress.forecast_stamp = forecast_->stamp;
+  progress.state = state_;
+  progress.reason = reason_;
+  progress.posterior = parameters_.framework ? belief_.posterior : Eigen::Vector3d::UnitX();
+  progress.cursor = cursor_;
+  if (plan_) {
+    progress.frozen = frozen_nodes(*plan_, cursor_);
+    progress.time_to_go = time_to_go(*plan_, cursor_);
+  }
+  return progress;
+}
+
+}  // namespace prf_decision

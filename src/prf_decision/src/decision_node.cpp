@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <map>
+
+#include "conversions.hpp"
+#include "parameters.hpp"
+
+namespace prf_decision {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr double kWarnPeriod = 1.0;  // s
+
+class DecisionNode {
+ public:
+  explicit DecisionNode(const NodeParameters& parameters)
+      : parameters_(parameters), gate_(parameters.gate), decision_(parameters.decision) {
+    progress_publisher_ =
+        node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
+    setpoint_publisher_ =
+        node_.advertise<trajectory_msgs::MultiDOFJointTrajectory>("execution/setpoint", kQueue);
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    subscribers_ = {
+        node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
+        node_.subscribe("target/forecast", kQueue, &DecisionNode::on_forecast, this, hints),
+        node_.subscribe("skill/trajectory", kQueue, &DecisionNode::on_trajectory, this, hints)};
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("decision", this, &DecisionNode::diagnose);
+  }
+
+ private:
+  void on_joint_states(const sensor_msgs::JointState& message) {
+    account("joint_states", gate_.push_tick(to_core(message.header.stamp)));
+    process();
+  }
+
+  void on_forecast(const prf_msgs::TargetForecast& message) {
+    ForecastArrival arrival{to_core(message.header.stamp), nullptr};
+    try {
+      arrival.forecast = to_core(message);
+    } catch (const std::invalid_argument& error) {
+      count("target/forecast refused");
+      ROS_WARN_THROTTLE(kWarnPeriod, "target/forecast refused: %s", error.what());
+    }
+    account("target/forecast", gate_.push_forecast(std::move(arrival)));
+    process();
+  }
+
+  void on_trajectory(const prf_msgs::SkillTrajectory& message) {
+    PlanAnswer answer{to_core(message.header.stamp), nullptr, ""};
+    if (message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
+      answer.message = message.message;
+      count("skill/trajectory without a plan");
+    } else {
+      try {
+        answer.plan = to_core(message);
+      } catch (const std::invalid_argument& error) {
+        answer.message = error.what();
+        count("skill/trajectory refused");
+        ROS_WARN_THROTTLE(kWarnPeriod, "skill/trajectory refused: %s", error.what());
+      }
+    }
+    account("skill/trajectory", gate_.push_answer(std::move(answer)));
+    process();
+  }
+
+  void account(const std::string& topic, Push push) {
+    if (push == Push::kOld) count(topic + " dropped as old");
+    if (push == Push::kFuture) count(topic + " dropped as future");
+    if (push != Push::kNewRun) return;
+    ROS_WARN("clock of %s went back: new run", topic.c_str());
+    decision_ = Decision(parameters_.decision);
+    last_ = Progress();
+    diagnostics_.force_update();
+  }
+
+  void process() {
+    while (const auto tick = gate_.next()) {
+      if (tick->forecast_stale) report_silent("target/forecast");
+      if (tick->plan_stale) report_silent("skill/trajectory");
+      const auto [progress, setpoint] = decision_.update(*tick);
+      progress_publisher_.publish(to_message(progress));
+      setpoint_publisher_.publish(to_message(tick->stamp, setpoint));
+      if (progress.state != last_.state) {
+        ROS_INFO("%s -> %s: %s", name(last_.state), name(progress.state), progress.reason.c_str());
+      }
+      last_ = progress;
+      count("ticks");
+      diagnostics_.update();
+    }
+  }
+
+  void report_silent(const std::string& topic) {
+    count("ticks without " + topic);
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent for more than %.2f s", topic.c_str(),
+                      to_seconds(parameters_.gate.max_wait));
+  }
+
+  void count(const std::string& what) { ++counters_[what]; }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   std::string(name(last_.state)) + " " + last_.reason);
+    for (const auto& [what, number] : counters_) status.add(what, number);
+  }
+
+  NodeParameters parameters_;
+  TickGate gate_;
+  Decision decision_;
+  Progress last_;
+  std::map<std::string, std::size_t> counters_;
+  ros::NodeHandle node_;
+  ros::Publisher progress_publisher_;
+  ros::Publisher setpoint_publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+  diagnostic_updater::Updater diagnostics_;
+};
+
+}  // namespace
+}  // namespace prf_decision
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "decision");
+  return prf_parameters::run([] {
+    prf_decision::DecisionNode node(
+        prf_decision::load_parameters(prf_parameters::PrivateParameters(ros::NodeHandle("~"))));
+    ros::spin();
+  });
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/hmm_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace prf_decision {
+namespace {
+
+using Keys = std::initializer_list<const char*>;
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void require_keys(const YAML::Node& map, const std::string& name, const Keys& keys) {
+  if (!map.IsMap()) refuse(name + " is not a map of keys");
+  for (const auto& entry : map) {
+    const auto key = entry.first.as<std::string>();
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* known) { return key == known; })) {
+      refuse("unknown key '" + key + "' in " + name);
+    }
+  }
+  for (const char* key : keys) {
+    if (!map[key]) refuse("missing key '" + std::string(key) + "' in " + name);
+  }
+}
+
+double number(const YAML::Node& node, const std::string& name) {
+  try {
+    return node.as<double>();
+  } catch (const YAML::Exception&) {
+    refuse(name + " is " + YAML::Dump(node) + ", must be a number");
+  }
+}
+
+void require_three(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence() || node.size() != kIntents) {
+    refuse(name + " is " + YAML::Dump(node) + ", must be a list of 3");
+  }
+}
+
+Eigen::Vector3d vector(const YAML::Node& node, const std::string& name) {
+  require_three(node, name);
+  Eigen::Vector3d values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    values[static_cast<Eigen::Index>(i)] = number(node[i], name + "[" + std::to_string(i) + "]");
+  }
+  return values;
+}
+
+Eigen::Matrix3d matrix(const YAML::Node& node, const std::string& name) {
+  require_three(node, name);
+  Eigen::Matrix3d rows;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) =
+        vector(node[i], name + "[" + std::to_string(i) + "]").transpose();
+  }
+  return rows;
+}
+
+HmmParameters parse(const YAML::Node& root) {
+  const Keys intents{kIntentNames[0], kIntentNames[1], kIntentNames[2]};
+  require_keys(root, "the file", {"initial", "transition", "mean", "covariance"});
+  for (const char* key : {"initial", "transition", "mean", "covariance"}) {
+    require_keys(root[key], key, intents);
+  }
+  HmmParameters parameters;
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const std::string intent = kIntentNames[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    parameters.initial[row] = number(root["initial"][intent], "initial." + intent);
+    parameters.transition.row(row) =
+        vector(root["transition"][intent], "transition." + intent).transpose();
+    parameters.mean[i] = vector(root["mean"][intent], "mean." + intent);
+    parameters.covariance[i] = matrix(root["covariance"][intent], "covariance." + intent);
+  }
+  parameters.validate();
+  return parameters;
+}
+
+}  // namespace
+
+HmmParameters load_hmm(const std::string& path) {
+  try {
+    return parse(YAML::LoadFile(path));
+  } catch (const YAML::BadFile&) {
+    refuse("HMM file '" + path + "' cannot be read");
+  } catch (const YAML::Exception& error) {
+    refuse("HMM file '" + path + "': " + error.what());
+  } catch (const std::invalid_argument& error) {
+    refuse("HMM file '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace prf_decision

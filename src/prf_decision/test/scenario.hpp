@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small worlds for the tests: a straight skill, a target that moves as told, usual parameters.
+#pragma once
+
+#include <memory>
+
+#include "prf_decision/decision.hpp"
+
+namespace prf_decision {
+
+inline constexpr Duration kTickPeriod = std::chrono::milliseconds(10);
+
+inline Pose pose_at(double x, double y, double z) { return {{x, y, z}, {1, 0, 0, 0}}; }
+
+// From (0.3, 0, 0.5) to (0.6, 0, 0.5) in 11 nodes and 1 s; the target's frame is 0.4 m ahead.
+inline Trajectory straight_skill() {
+  Trajectory skill;
+  for (int i = 0; i <= 10; ++i) {
+    skill.poses.push_back(pose_at(0.3 + 0.03 * i, 0, 0.5));
+    skill.times.push_back(std::chrono::milliseconds(100 * i));
+  }
+  skill.goal_in_target = pose_at(-0.4, 0, 0);
+  return skill;
+}
+
+inline Forecast forecast_of(Stamp stamp, const Eigen::Vector3d& position,
+                            const Eigen::Vector3d& velocity,
+                            TargetStatus status = TargetStatus::kTracking) {
+  Forecast forecast;
+  forecast.stamp = stamp;
+  forecast.status = status;
+  for (const double horizon : {0.0, 0.1, 0.5}) {
+    MovingPose target;
+    target.pose.position = position + velocity * horizon;
+    target.linear_velocity = velocity;
+    forecast.predictions.push_back({from_seconds(horizon), target});
+  }
+  return forecast;
+}
+
+inline HmmParameters usual_hmm() {
+  HmmParameters hmm;
+  hmm.initial << 0.8, 0.15, 0.05;
+  hmm.transition << 0.97, 0.03, 0, 0.015, 0.97, 0.015, 0, 0.03, 0.97;
+  const std::array<double, kIntents> sigma{0.10, 0.19, 0.36};
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    hmm.mean[i].setZero();
+    hmm.covariance[i] = Eigen::Matrix3d::Identity() * sigma[i] * sigma[i];
+  }
+  return hmm;
+}
+
+inline GuardParameters usual_guards() {
+  GuardParameters guards;
+  guards.pause_after = from_seconds(0.3);
+  guards.reverse_after = from_seconds(1.0);
+  guards.stop_after = from_seconds(2.0);
+  guards.max_reach = 0.95;
+  guards.workspace_radius = 2.0;
+  guards.max_target_speed = 1.5;
+  return guards;
+}
+
+inline DecisionParameters usual_parameters() {
+  DecisionParameters parameters;
+  parameters.max_gap = from_seconds(0.3);
+  parameters.lead = from_seconds(0.02);
+  parameters.hold_time = from_seconds(1.0);
+  parameters.dwell_time = from_seconds(0.2);
+  parameters.time_limit = from_seconds(20.0);
+  parameters.tracking_tolerance = 0.02;
+  parameters.catch_up_speed = {0.2, 0.5};
+  parameters.guards = usual_guards();
+  parameters.hmm = usual_hmm();
+  return parameters;
+}
+
+}  // namespace prf_decision

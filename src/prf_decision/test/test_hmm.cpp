@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/hmm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "scenario.hpp"
+
+namespace prf_decision {
+namespace {
+
+// A model without symmetries: correlated axes, means that differ, every transition possible.
+HmmParameters skewed_hmm() {
+  HmmParameters hmm;
+  hmm.initial << 0.5, 0.3, 0.2;
+  hmm.transition << 0.7, 0.2, 0.1, 0.25, 0.6, 0.15, 0.05, 0.35, 0.6;
+  hmm.mean = {Eigen::Vector3d{0.01, 0, -0.02}, Eigen::Vector3d{0.1, 0.05, 0},
+              Eigen::Vector3d{-0.2, 0.1, 0.3}};
+  hmm.covariance[0] << 0.02, 0.004, 0, 0.004, 0.01, 0.001, 0, 0.001, 0.015;
+  hmm.covariance[1] << 0.05, -0.01, 0.02, -0.01, 0.08, 0, 0.02, 0, 0.06;
+  hmm.covariance[2] << 0.2, 0.05, 0.03, 0.05, 0.3, -0.04, 0.03, -0.04, 0.25;
+  return hmm;
+}
+
+double density(const HmmParameters& hmm, std::size_t state, const Eigen::Vector3d& o) {
+  const Eigen::Vector3d d = o - hmm.mean[state];
+  const Eigen::Matrix3d& s = hmm.covariance[state];
+  return std::exp(-0.5 * d.dot(s.inverse() * d)) /
+         std::sqrt(std::pow(2 * M_PI, 3) * s.determinant());
+}
+
+// P(state at the end, observations) by summing over every state sequence.
+Eigen::Vector3d enumerate(const HmmParameters& hmm, const std::vector<Eigen::Vector3d>& o) {
+  Eigen::Vector3d joint = Eigen::Vector3d::Zero();
+  const auto sequences = static_cast<std::size_t>(std::lround(std::pow(3, o.size())));
+  for (std::size_t code = 0; code < sequences; ++code) {
+    std::size_t rest = code;
+    std::size_t state = rest % 3;
+    double p = hmm.initial[static_cast<Eigen::Index>(state)] * density(hmm, state, o[0]);
+    for (std::size_t k = 1; k < o.size(); ++k) {
+      rest /= 3;
+      const std::size_t next = rest % 3;
+      p *= hmm.transition(static_cast<Eigen::Index>(state), static_cast<Eigen::Index>(next)) *
+           density(hmm, next, o[k]);
+      state = next;
+    }
+    joint[static_cast<Eigen::Index>(state)] += p;
+  }
+  return joint;
+}
+
+TEST(HmmFilter, EqualsTheEnumerationOfAllStateSequences) {
+  const HmmParameters hmm = skewed_hmm();
+  const HmmFilter filter(hmm);
+  std::mt19937 random(1);
+  std::normal_distribution<double> velocity(0, 0.3);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Eigen::Vector3d> o;
+    HmmBelief belief = filter.initial_belief();
+    for (int k = 0; k < 7; ++k) {
+      o.emplace_back(velocity(random), velocity(random), velocity(random));
+      belief = filter.observe(belief, o.back());
+      const Eigen::Vector3d joint = enumerate(hmm, o);
+      EXPECT_NEAR((belief.posterior - joint / joint.sum()).cwiseAbs().maxCoeff(), 0, 1e-12);
+      EXPECT_NEAR(belief.log_likelihood, std::log(joint.sum()), 1e-11);
+    }
+  }
+}
+
+TEST(HmmFilter, StaysADistributionUnderFarOutliers) {
+  const HmmFilter filter(usual_hmm());
+  HmmBelief belief = filter.initial_belief();
+  for (const double speed : {0.0, 1e3, 0.0, 1e6, -50.0, 0.1}) {
+    belief = filter.observe(belief, {speed, 0, 0});
+    EXPECT_TRUE(belief.posterior.allFinite());
+    EXPECT_NEAR(belief.posterior.sum(), 1, 1e-12);
+    EXPECT_GE(belief.posterior.minCoeff(), 0);
+  }
+}
+
+TEST(HmmFilter, DriftsToTheStationaryDistributionWithoutObservations) {
+  const HmmParameters hmm = skewed_hmm();
+  const HmmFilter filter(hmm);
+  HmmBelief belief = filter.observe(filter.initial_belief(), {0, 0, 0});
+  for (int k = 0; k < 500; ++k) belief = filter.predict(belief);
+  EXPECT_NEAR((hmm.transition.transpose() * belief.posterior - belief.posterior).norm(), 0, 1e-12);
+}
+
+TEST(HmmFilter, DoesNotSpendTheInitialDistributionBeforeTheFirstObservation) {
+  const HmmFilter filter(skewed_hmm());
+  const HmmBelief belief = filter.initial_belief();
+  EXPECT_EQ(belief.posterior, skewed_hmm().initial);
+  EXPECT_FALSE(belief.started);
+}
+
+TEST(HmmFilter, RefusesAVelocityThatIsNotFinite) {
+  const HmmFilter filter(usual_hmm());
+  EXPECT_THROW((void)filter.observe(filter.initial_belief(), {NAN, 0, 0}), std::invalid_argument);
+}
+
+TEST(HmmFilter, PrefersTheMoreCautiousStateWhenEqual) {
+  HmmBelief belief;
+  belief.posterior << 0.5, 0.5, 0;
+  EXPECT_EQ(most_probable(belief), Intent::kPause);
+}
+
+TEST(HmmParameters, RefusesEveryEntryOfTheCatalogueByName) {
+  using Spoil = std::function<void(HmmParameters&)>;
+  const std::vector<std::pair<std::string, Spoil>> catalogue{
+      {"initial sums", [](auto& h) { h.initial << 0.5, 0.3, 0.3; }},
+      {"initial[1]", [](auto& h) { h.initial << 0.9, -0.2, 0.3; }},
+      {"initial[0]", [](auto& h) { h.initial << NAN, 0.5, 0.5; }},
+      {"transition.pause sums", [](auto& h) { h.transition(1, 1) = 0.9; }},
+      {"transition.reverse[0]", [](auto& h) { h.transition.row(2) << -0.1, 0.1, 1.0; }},
+      {"reverse can never be reached", [](auto& h) { h.transition.row(1) << 0.1, 0.9, 0; }},
+      {"forward can never be reached from reverse",
+       [](auto& h) { h.transition.row(2) << 0, 0, 1; }},
+      {"mean.forward", [](auto& h) { h.mean[0].x() = INFINITY; }},
+      {"covariance.pause is not finite", [](auto& h) { h.covariance[1](0, 0) = NAN; }},
+      {"covariance.pause differs", [](auto& h) { h.covariance[1](0, 1) = 0.01; }},
+      {"covariance.forward has smallest eigenvalue", [](auto& h) { h.covariance[0].setZero(); }},
+      {"covariance.pause has smallest eigenvalue",
+       [](auto& h) { h.covariance[1].setConstant(0.04); }},
+      {"covariance.pause gives an rms speed",
+       [](auto& h) { std::swap(h.covariance[0], h.covariance[1]); }},
+      {"covariance.reverse gives an rms speed", [](auto& h) { h.covariance[2] = h.covariance[1]; }},
+  };
+  for (const auto& [culprit, spoil] : catalogue) {
+    HmmParameters hmm = usual_hmm();
+    ASSERT_NO_THROW(hmm.validate());
+    spoil(hmm);
+    try {
+      hmm.validate();
+      ADD_FAILURE() << "accepted: " << culprit;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(culprit), std::string::npos)
+          << culprit << " not in: " << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prf_decision

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/hmm_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <regex>
+#include <vector>
+
+#include "scenario.hpp"
+
+namespace prf_decision {
+namespace {
+
+const char* kValid = R"(
+initial: {forward: 0.80, pause: 0.15, reverse: 0.05}
+transition: {forward: [0.97, 0.03, 0.00], pause: [0.015, 0.97, 0.015], reverse: [0.00, 0.03, 0.97]}
+mean: {forward: [0, 0, 0], pause: [0, 0, 0], reverse: [0, 0, 0]}
+covariance:
+  forward: [[0.0100, 0, 0], [0, 0.0100, 0], [0, 0, 0.0100]]
+  pause: [[0.0361, 0, 0], [0, 0.0361, 0], [0, 0, 0.0361]]
+  reverse: [[0.1296, 0, 0], [0, 0.1296, 0], [0, 0, 0.1296]]
+)";
+
+class HmmFile : public testing::Test {
+ protected:
+  std::string write(const std::string& text) {
+    std::ofstream(path_) << text;
+    return path_;
+  }
+  ~HmmFile() override { std::remove(path_.c_str()); }
+
+  const std::string path_ = testing::TempDir() + "prf_decision_hmm_file.yaml";
+};
+
+void expect_same(const HmmParameters& a, const HmmParameters& b) {
+  EXPECT_TRUE(a.initial.isApprox(b.initial, 1e-12));
+  EXPECT_TRUE(a.transition.isApprox(b.transition, 1e-12));
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    EXPECT_TRUE(a.mean[i].isApprox(b.mean[i], 1e-12));
+    EXPECT_TRUE(a.covariance[i].isApprox(b.covariance[i], 1e-12));
+  }
+}
+
+TEST_F(HmmFile, GivesTheValuesThatAreWrittenInIt) {
+  expect_same(load_hmm(write(kValid)), usual_hmm());
+}
+
+TEST_F(HmmFile, OfTheConfigurationIsValid) {
+  expect_same(load_hmm("config/hmm_default.yaml"), usual_hmm());
+}
+
+TEST_F(HmmFile, ThatCannotBeReadIsNamed) {
+  try {
+    (void)load_hmm("no/such/file.yaml");
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "HMM file 'no/such/file.yaml' cannot be read");
+  }
+}
+
+TEST_F(HmmFile, WithAFaultIsRefusedWithItsNameAndTheCulprit) {
+  struct Fault {
+    const char* find;
+    const char* replace;
+    const char* culprit;
+  };
+  const std::vector<Fault> catalogue{
+      {"initial:", "initials:", "unknown key 'initials'"},
+      {"initial:[^\n]*\n", "", "missing key 'initial'"},
+      {"mean: \\{forward", "mean: {foreward", "unknown key 'foreward' in mean"},
+      {"pause: \\[0, 0, 0\\], ", "", "missing key 'pause' in mean"},
+      {"0\\.80", "most", "initial.forward is most, must be a number"},
+      {"0\\.80", "0.9", "initial sums to 1.1, must be 1"},
+      {"0\\.80", "-0.8", "initial[0] is -0.8, must be in 0 .. 1"},
+      {"0\\.80", ".nan", "initial[0] is nan"},
+      {"\\[0\\.97, 0\\.03, 0\\.00\\]", "[0.97, 0.03]", "transition.forward is [0.97, 0.03]"},
+      {"\\[0\\.97, 0\\.03, 0\\.00\\]", "[0.97, 0.02, 0]", "transition.forward sums to 0.99"},
+      {"\\[0\\.00, 0\\.03, 0\\.97\\]", "[0, 0, 1]", "forward can never be reached from reverse"},
+      {"0\\.0361, 0, 0", "-0.0361, 0, 0", "covariance.pause has smallest eigenvalue"},
+      {"0\\.0361, 0, 0", "0.0361, 0.001, 0", "covariance.pause differs from its transpose"},
+      {"0\\.0361, 0, 0", "0.0361, 0, x", "covariance.pause[0][2] is x, must be a number"},
+      {"0\\.0361", "0.0050", "covariance.pause gives an rms speed"},
+      {"reverse: \\[\\[", "reverse: [", "HMM file"},
+      {"[^]*", "42", "the file is not a map"},
+      {"[^]*", "", "the file is not a map"},
+  };
+  for (const auto& [find, replace, culprit] : catalogue) {
+    const std::string text = std::regex_replace(std::string(kValid), std::regex(find), replace);
+    ASSERT_NE(text, kValid) << find;
+    try {
+      (void)load_hmm(write(text));
+      ADD_FAILURE() << "accepted: " << culprit;
+    } catch (const std::invalid_argument& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(culprit), std::string::npos) << culprit << " not in: " << message;
+      EXPECT_NE(message.find(path_), std::string::npos) << message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prf_decision

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/tick_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "scenario.hpp"
+
+namespace prf_decision {
+namespace {
+
+using std::chrono::milliseconds;
+
+const GateParameters kGate{milliseconds(60), from_seconds(1 / 30.0), milliseconds(300)};
+
+ForecastArrival forecast(Stamp stamp) { return {stamp, std::make_shared<Forecast>()}; }
+
+PlanAnswer answer(Stamp stamp) { return {stamp, std::make_shared<Trajectory>(), ""}; }
+
+// Line per tick: its stamp, the forecasts and the answer that come into force, what is stale.
+std::string describe(const Tick& tick) {
+  std::ostringstream line;
+  line << tick.stamp.count() << ":";
+  for (const auto& arrival : tick.forecasts) line << " f" << arrival.stamp.count();
+  if (tick.answer) line << " a" << tick.answer->stamp.count();
+  if (tick.forecast_stale) line << " forecast_stale";
+  if (tick.plan_stale) line << " plan_stale";
+  return line.str() + "\n";
+}
+
+bool names_a_forecast(const Tick& tick) {
+  for (const auto& arrival : tick.forecasts) {
+    if (arrival.forecast) return true;
+  }
+  return false;
+}
+
+struct Sequences {
+  std::vector<Stamp> ticks;
+  std::vector<Stamp> forecasts;
+};
+
+// 1.5 s of ticks at 100 Hz, images at 30 Hz with jitter; up to 5 images in a row are missing.
+Sequences random_sequences(std::mt19937& random) {
+  Sequences sequences;
+  const Stamp start = std::chrono::seconds(100);
+  for (int i = 0; i < 150; ++i) sequences.ticks.push_back(start + i * kTickPeriod);
+  std::uniform_int_distribution<int> jitter(-4000, 4000);
+  std::bernoulli_distribution drop(0.2);
+  int dropped = 0;
+  for (int i = 0; i < 48; ++i) {
+    const bool missing = i > 0 && i < 47 && dropped < 5 && drop(random);
+    dropped = missing ? dropped + 1 : 0;
+    if (missing) continue;
+    const Duration late = std::chrono::microseconds(i == 0 ? 0 : jitter(random));
+    sequences.forecasts.push_back(start + from_seconds(i / 30.0) + late);
+  }
+  return sequences;
+}
+
+// Delivers the streams in a random order that respects each stream's own; an answer can only come
+// after its progress. Ticks run ahead of what they wait for by less than max_wait.
+std::string deliver(const Sequences& sequences, std::mt19937& random) {
+  TickGate gate(kGate);
+  std::string processed;
+  std::deque<Stamp> requests;
+  std::size_t ticks = 0;
+  std::size_t forecasts = 0;
+  Stamp waiting_since = sequences.ticks[0];
+  std::discrete_distribution<int> bias({1, 1, 1});
+  for (;;) {
+    const bool may_tick =
+        ticks < sequences.ticks.size() && sequences.ticks[ticks] - waiting_since <= kGate.max_wait;
+    const bool may_forecast = forecasts < sequences.forecasts.size() &&
+                              (ticks == 0 || sequences.forecasts[forecasts] <
+                                                 sequences.ticks[ticks - 1] + milliseconds(900));
+    if (!may_tick && !may_forecast && requests.empty()) break;
+    switch (bias(random)) {
+      case 0:
+        if (may_tick) gate.push_tick(sequences.ticks[ticks++]);
+        break;
+      case 1:
+        if (may_forecast) gate.push_forecast(forecast(sequences.forecasts[forecasts++]));
+        break;
+      default:
+        if (!requests.empty()) {
+          gate.push_answer(answer(requests.front()));
+          requests.pop_front();
+        }
+    }
+    // Now and then the order is biased, so that one stream runs far ahead.
+    if (random() % 20 == 0) {
+      const double a = static_cast<double>(1 + random() % 20);
+      const double b = static_cast<double>(1 + random() % 20);
+      bias = std::discrete_distribution<int>({a, b, 1});
+    }
+    while (const auto tick = gate.next()) {
+      processed += describe(*tick);
+      if (names_a_forecast(*tick)) requests.push_back(tick->stamp);
+      waiting_since = tick->stamp + kTickPeriod;
+    }
+  }
+  EXPECT_EQ(ticks, sequences.ticks.size());
+  return processed;
+}
+
+TEST(TickGate, ProcessesTheSameSequenceWhateverTheInterleaving) {
+  std::mt19937 random(1);
+  for (int world = 0; world < 100; ++world) {
+    const Sequences sequences = random_sequences(random);
+    const std::string expected = deliver(sequences, random);
+    EXPECT_EQ(std::count(expected.begin(), expected.end(), '\n'), 150);
+    EXPECT_EQ(expected.find("stale"), std::string::npos);
+    for (int order = 0; order < 60; ++order) {
+      ASSERT_EQ(deliver(sequences, random), expected) << "world " << world << " order " << order;
+    }
+  }
+}
+
+// Pushes ticks 0 .. count-1 and gives back what was processed.
+std::string tick_through(TickGate& gate, int from, int to) {
+  std::string processed;
+  for (int i = from; i < to; ++i) {
+    gate.push_tick(i * kTickPeriod);
+    while (const auto tick = gate.next()) processed += describe(*tick);
+  }
+  return processed;
+}
+
+std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST(TickGate, PutsAForecastIntoForceAtTheFirstTickAfterThePipelineDelay) {
+  TickGate gate(kGate);
+  EXPECT_EQ(lines(tick_through(gate, 0, 7)), 6);  // the tick at 60 ms could see an image of 0 ms
+  gate.push_forecast(forecast(Stamp{0}));
+  EXPECT_EQ(describe(*gate.next()), "60000000: f0\n");
+  EXPECT_FALSE(gate.next());
+}
+
+TEST(TickGate, WaitsForTheAnswerToTheProgressThatNamedAForecast) {
+  TickGate gate(kGate);
+  gate.push_forecast(forecast(Stamp{0}));
+  EXPECT_EQ(lines(tick_through(gate, 0, 8)), 7);
+  gate.push_answer(answer(milliseconds(60)));
+  EXPECT_EQ(describe(*gate.next()), "70000000: a60000000\n");
+}
+
+TEST(TickGate, DoesNotExpectAnAnswerToARefusedForecast) {
+  TickGate gate(kGate);
+  gate.push_forecast({Stamp{0}, nullptr});
+  EXPECT_EQ(lines(tick_through(gate, 0, 9)), 9);
+}
+
+TEST(TickGate, GivesUpOnASilentForecastByDataTimeAndWaitsAgainOnceItSpeaks) {
+  TickGate gate(kGate);
+  EXPECT_EQ(lines(tick_through(gate, 0, 37)), 6);  // newest 360 ms, waiting 60 ms: not yet
+  const std::string late = tick_through(gate, 37, 40);
+  EXPECT_EQ(late.rfind("60000000: forecast_stale\n", 0), 0u);
+  EXPECT_EQ(lines(late), 34);
+  gate.push_forecast(forecast(milliseconds(330)));
+  EXPECT_EQ(tick_through(gate, 40, 41), "400000000: f330000000\n");
+}
+
+TEST(TickGate, GivesUpOnASilentPlannerAndWaitsAgainOnceItSpeaks) {
+  TickGate gate(kGate);
+  gate.push_forecast(forecast(Stamp{0}));
+  EXPECT_EQ(lines(tick_through(gate, 0, 38)), 7);
+  for (int i = 1; i < 12; ++i) gate.push_forecast(forecast(from_seconds(i / 30.0)));
+  const std::string late = tick_through(gate, 38, 39);
+  EXPECT_EQ(late.rfind("70000000: plan_stale\n", 0), 0u);
+  EXPECT_EQ(lines(late), 32);
+  gate.push_answer(answer(milliseconds(60)));
+  EXPECT_EQ(tick_through(gate, 39, 40), "");  // waits for the answers still owed
+  gate.push_answer(answer(milliseconds(370)));
+  EXPECT_EQ(describe(*gate.next()), "390000000: a370000000\n");
+}
+
+TEST(TickGate, DropsDuplicatesAndStampsOfTheFuture) {
+  TickGate gate(kGate);
+  EXPECT_EQ(gate.push_tick(Stamp{0}), Push::kTaken);
+  EXPECT_EQ(gate.push_tick(Stamp{0}), Push::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), Push::kTaken);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), Push::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(10))), Push::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(1001))), Push::kFuture);
+  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
+  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kOld);
+  EXPECT_EQ(gate.push_answer(answer(milliseconds(1001))), Push::kFuture);
+}
+
+TEST(TickGate, ForgetsEverythingWhenTheTicksGoBack) {
+  TickGate gate(kGate);
+  gate.push_forecast(forecast(Stamp{0}));
+  tick_through(gate, 0, 8);
+  TickGate fresh(kGate);
+  EXPECT_EQ(gate.push_tick(milliseconds(60)), Push::kNewRun);
+  fresh.push_tick(milliseconds(60));
+  EXPECT_EQ(describe(*gate.next()), describe(*fresh.next()));
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(60))), Push::kTaken);
+  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
+}
+
+TEST(TickGate, ForgetsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
+  TickGate gate(kGate);
+  gate.push_forecast(forecast(milliseconds(1500)));
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(400))), Push::kNewRun);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(433))), Push::kTaken);
+}
+
+TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
+  for (const bool forecast_first : {true, false}) {
+    TickGate gate(kGate);
+    if (forecast_first) gate.push_forecast(forecast(milliseconds(70)));
+    gate.push_tick(milliseconds(100));
+    if (!forecast_first) {
+      EXPECT_EQ(gate.push_forecast(forecast(milliseconds(70))), Push::kOld);
+    }
+    gate.push_forecast(forecast(milliseconds(100)));
+    std::string processed;
+    while (const auto tick = gate.next()) processed += describe(*tick);
+    for (int i = 11; i < 17; ++i) {
+      gate.push_tick(i * kTickPeriod);
+      while (const auto tick = gate.next()) processed += describe(*tick);
+    }
+    EXPECT_EQ(processed,
+              "100000000:\n110000000:\n120000000:\n130000000:\n140000000:\n150000000:\n"
+              "160000000: f100000000\n");
+  }
+}
+
+TEST(GateParameters, AreRefusedByName) {
+  for (const auto& [culprit, parameters] : std::vector<std::pair<std::string, GateParameters>>{
+           {"pipeline_delay", {Duration{0}, milliseconds(33), milliseconds(300)}},
+           {"camera_period", {milliseconds(60), milliseconds(4), milliseconds(300)}},
+           {"max_wait", {milliseconds(60), milliseconds(33), milliseconds(-1)}}}) {
+    try {
+      TickGate gate(parameters);
+      ADD_FAILURE() << "accepted: " << culprit;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(culprit, 0), 0u) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prf_decision
