@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_parameters/private_parameters.hpp>
 #include <ros/ros.h>
 
 #include <chrono>
-#include <exception>
 
 #include "conversions.hpp"
 #include "elte_planner/request_queue.hpp"
@@ -126,13 +126,9 @@ class SkillPlannerNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "skill_planner");
-  ros::NodeHandle private_handle("~");  // outlives the try: the last handle closes the console
-  try {
-    elte_planner::SkillPlannerNode node(elte_planner::load_node_params(private_handle));
+  const ros::NodeHandle keeps_console_open;  // the last handle to go takes rosout and stderr along
+  return prf_parameters::run([] {
+    elte_planner::SkillPlannerNode node(elte_planner::load_node_params(ros::NodeHandle("~")));
     ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

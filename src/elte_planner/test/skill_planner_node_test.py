@@ -133,11 +133,11 @@ class SkillPlannerParameters(unittest.TestCase):
 
     def test_bad_values_are_refused_by_name(self):
         self.check("nodes is 2", nodes=2)
-        self.check("nodes is 50.5", nodes=50.5)
+        self.check("nodes = 50.5", nodes=50.5)
         self.check("w_elastic is -", w_elastic=-0.001)
         self.check("w_bending is nan", w_bending=float("nan"))
         self.check("planner is 'bezier'", planner="bezier")
-        self.check("framework is yes", framework="yes")
+        self.check("framework = yes", framework="yes")
         self.check("horizon_max is -1", horizon_max=-1)
         self.check("confidence is 1", confidence=1.0)
         self.check("radius_min is -", radius_min=-0.01)
@@ -147,7 +147,7 @@ class SkillPlannerParameters(unittest.TestCase):
 
     def test_missing_and_unknown_keys_are_refused_by_name(self):
         self.check("nodes is missing", nodes=None)
-        self.check("nodez is not a parameter", nodez=50)
+        self.check("nodez = 50", nodez=50)
 
 
 class Suite(unittest.TestSuite):
