@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One control period of a joint motion within limits.
+//
+//   q' = q + v' dt     lower <= q' <= upper     |v'| <= velocity     |v' - v| <= acceleration dt
+//
+// The limits are kept for any sequence of dt > 0, from any state that keeps them and could still
+// brake before the position limits. All joints are slowed together, so a motion from rest
+// to a goal at rest is a straight line in joint space, without overshoot.
+// Units: radians, seconds. std::invalid_argument for non-finite input or dt <= 0.
+#pragma once
+
+#include <jaco_v60_description/jaco_kinematics.hpp>
+
+namespace prf_control {
+
+using jaco_v60_description::JointVector;
+
+struct MotionLimits {
+  JointVector lower;         // [rad], -infinity where the joint is continuous
+  JointVector upper;         // [rad]
+  JointVector velocity;      // [rad/s], > 0
+  JointVector acceleration;  // [rad/s^2], > 0
+
+  void validate() const;
+};
+
+struct MotionState {
+  JointVector position = JointVector::Zero();  // [rad]
+  JointVector velocity = JointVector::Zero();  // [rad/s]
+};
+
+enum class Limit { kNone, kAcceleration, kVelocity, kPosition };
+
+struct LimitedStep {
+  MotionState state;
+  Limit limit = Limit::kNone;  // what shaped this step, position before the others
+  int joint = -1;              // the joint that met it
+  double asked = 0.0;          // what would have been without: [rad/s], [rad/s^2] for acceleration
+  double bound = 0.0;          // what was allowed, same unit
+};
+
+// Fastest speed from which `distance` is left exactly when braking by `deceleration` every dt.
+double approach_speed(double distance, double deceleration, double dt);
+
+// Toward a goal that moves on with goal.velocity: meets and follows it if the limits allow.
+[[nodiscard]] LimitedStep step_toward(const MotionState& state, const MotionState& goal, double dt,
+                                      const MotionLimits& limits);
+
+// Toward rest, the direction of motion kept.
+[[nodiscard]] LimitedStep step_to_rest(const MotionState& state, double dt,
+                                       const MotionLimits& limits);
+
+}  // namespace prf_control

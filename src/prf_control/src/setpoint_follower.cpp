@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_control/setpoint_follower.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "prf_control/nearest_pose.hpp"
+
+namespace prf_control {
+namespace {
+
+using jaco_v60_description::IkResult;
+using jaco_v60_description::IkStatus;
+using ErrorVector = Eigen::Matrix<double, 6, 1>;
+
+void check(const char* name, double value, double bound, const char* unit) {
+  if (!(std::isfinite(value) && value > 0.0 && value <= bound)) {
+    throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + unit +
+                                ", must be > 0 and <= " + std::to_string(bound));
+  }
+}
+
+MotionLimits limits_of(const FollowerParams& params) {
+  const auto& joints = jaco_v60_description::jaco_joint_limits();
+  MotionLimits limits{joints.lower, joints.upper, params.velocity_scale * joints.velocity,
+                      JointVector::Constant(params.acceleration)};
+  limits.validate();
+  return limits;
+}
+
+Eigen::Isometry3d moved_back(const PoseSetpoint& setpoint, double dt) {
+  const Eigen::Vector3d turn = -setpoint.angular_velocity * dt;
+  const double angle = turn.norm();
+  Eigen::Isometry3d pose = setpoint.hand_in_base;
+  pose.translation() -= setpoint.linear_velocity * dt;
+  if (angle > 0.0) {
+    pose.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * pose.linear();
+  }
+  return pose;
+}
+
+}  // namespace
+
+struct SetpointFollower::Goal {
+  GoalKind kind;
+  MotionState motion;
+  int jump_joint;
+  double jump;
+};
+
+void FollowerParams::validate() const {
+  check("velocity_scale", velocity_scale, 1.0, "");
+  check("acceleration", acceleration, 100.0, " rad/s^2");
+  check("max_joint_step", max_joint_step, M_PI, " rad");
+  check("far_position", far_position, 1.0, " m");
+  check("far_orientation", far_orientation, M_PI, " rad");
+  check("damping", damping, 1.0, "");
+  check("orientation_weight", orientation_weight, 10.0, " m/rad");
+}
+
+SetpointFollower::SetpointFollower(const FollowerParams& params) : params_(params) {
+  params_.validate();
+  limits_ = limits_of(params_);
+}
+
+void SetpointFollower::start(const JointVector& measured) {
+  if (!measured.allFinite()) throw std::invalid_argument("measured joints must be finite");
+  reset();
+  state_ =
+      MotionState{measured.cwiseMax(limits_.lower).cwiseMin(limits_.upper), JointVector::Zero()};
+}
+
+void SetpointFollower::reset() {
+  state_.reset();
+  goal_.reset();
+  last_pose_.reset();
+}
+
+FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
+  const Goal goal = choose_goal(setpoint, dt);
+  FollowerStep step;
+  step.goal = goal.kind;
+  step.jump_joint = goal.jump_joint;
+  step.jump = goal.jump;
+  step.motion = step_toward(state(), goal.motion, dt, limits_);
+  const ErrorVector deviation =
+      pose_error(jaco_v60_description::forward(step.motion.state.position), setpoint.hand_in_base);
+  step.position_deviation = deviation.head<3>().norm();
+  step.orientation_deviation = deviation.tail<3>().norm();
+
+  state_ = step.motion.state;
+  goal_ = goal.motion.position;
+  last_pose_ = setpoint.hand_in_base;
+  return step;
+}
+
+FollowerStep SetpointFollower::hold(double dt) {
+  FollowerStep step;
+  step.motion = step_to_rest(state(), dt, limits_);
+  state_ = step.motion.state;
+  goal_.reset();
+  last_pose_.reset();
+  return step;
+}
+
+SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoint,
+                                                     double dt) const {
+  const Eigen::Isometry3d& pose = setpoint.hand_in_base;
+  const bool far = is_far(pose);
+  const JointVector reference = far || !goal_ ? state().position : *goal_;
+
+  const IkResult solution = jaco_v60_description::inverse(pose, reference);
+  const bool solved = solution.status == IkStatus::kSolved;
+  const JointVector q =
+      solved ? solution.q : nearest_pose(pose, reference, params_.orientation_weight);
+
+  int joint = 0;
+  const double jump = (q - reference).cwiseAbs().maxCoeff(&joint);
+  if (!far && jump > params_.max_joint_step) {
+    const JointVector crept = damped_step(pose, reference, dt);
+    return {GoalKind::kJumpRefused, {crept, (crept - reference) / dt}, joint, jump};
+  }
+  if (!solved) return {GoalKind::kNearest, {q, JointVector::Zero()}, -1, 0.0};
+  return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt)}, -1, 0.0};
+}
+
+// Zero where the pose one period ago has no solution near the goal: the goal came from nowhere.
+JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal,
+                                            double dt) const {
+  if (setpoint.linear_velocity.isZero(0.0) && setpoint.angular_velocity.isZero(0.0)) {
+    return JointVector::Zero();
+  }
+  const IkResult before = jaco_v60_description::inverse(moved_back(setpoint, dt), goal);
+  const JointVector step = goal - before.q;
+  const bool continuous =
+      before.status == IkStatus::kSolved && step.cwiseAbs().maxCoeff() <= params_.max_joint_step;
+  return continuous ? JointVector(step / dt) : JointVector::Zero();
+}
+
+// Damped least squares with the position in units of orientation_weight:
+//   dq = A^T (A A^T + damping^2 I)^-1 e,  A = W J,  shortened to the velocity limits.
+JointVector SetpointFollower::damped_step(const Eigen::Isometry3d& hand_in_base,
+                                          const JointVector& from, double dt) const {
+  ErrorVector weight;
+  weight << Eigen::Vector3d::Constant(1.0 / params_.orientation_weight), Eigen::Vector3d::Ones();
+  const ErrorVector error =
+      pose_error(jaco_v60_description::forward(from), hand_in_base).cwiseProduct(weight);
+  const jaco_v60_description::Jacobian a =
+      weight.asDiagonal() * jaco_v60_description::jacobian(from);
+  Eigen::Matrix<double, 6, 6> normal = a * a.transpose();
+  normal.diagonal().array() += params_.damping * params_.damping;
+  const JointVector dq = a.transpose() * normal.ldlt().solve(error);
+
+  const double excess = dq.cwiseAbs().cwiseQuotient(limits_.velocity * dt).maxCoeff();
+  const JointVector step = dq / std::max(1.0, excess);
+  return (from + step).cwiseMax(limits_.lower).cwiseMin(limits_.upper);
+}
+
+bool SetpointFollower::is_far(const Eigen::Isometry3d& hand_in_base) const {
+  const Eigen::Isometry3d last =
+      last_pose_ ? *last_pose_ : jaco_v60_description::forward(state().position);
+  const ErrorVector error = pose_error(last, hand_in_base);
+  return error.head<3>().norm() > params_.far_position ||
+         error.tail<3>().norm() > params_.far_orientation;
+}
+
+}  // namespace prf_control

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The node alone: one tick and one set-point in, one command and one status out."""
+import math
+import random
+import threading
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Transform, Twist
+from prf_msgs.msg import ControlStatus
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory, MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
+
+ARM = ['j2s7s300_joint_%d' % i for i in range(1, 8)]
+LEGS = ['fl_hip', 'fl_knee']
+HOME = [0.0, 3.6, 0.0, 1.6, 0.0, 2.0, 0.0]
+TICK = 0.01
+PATIENCE = 10.0  # s, wall clock
+
+
+def joint_state(stamp, positions, shuffled=False):
+    names = ARM + LEGS
+    values = list(positions) + [0.1, 0.2]
+    if shuffled:
+        names, values = names[::-1], values[::-1]
+    message = JointState(name=names, position=values)
+    message.header.stamp = stamp
+    return message
+
+
+def setpoint(stamp, position=(0.4, 0.0, 0.5), rotation=(0.5, 0.5, 0.5, 0.5),
+             frame='j2s7s300_link_base', hand='j2s7s300_end_effector'):
+    message = MultiDOFJointTrajectory(joint_names=[hand])
+    message.header.stamp = stamp
+    message.header.frame_id = frame
+    transform = Transform()
+    transform.translation.x, transform.translation.y, transform.translation.z = position
+    (transform.rotation.x, transform.rotation.y, transform.rotation.z,
+     transform.rotation.w) = rotation
+    message.points = [MultiDOFJointTrajectoryPoint(transforms=[transform], velocities=[Twist()])]
+    return message
+
+
+def hold(stamp):
+    message = setpoint(stamp)
+    message.points = []
+    return message
+
+
+class ArmControllerNode(unittest.TestCase):
+    """Each test is a run of its own: its stamps begin before those of the last one."""
+    run_begin = 100000
+
+    @classmethod
+    def setUpClass(cls):
+        cls.received = threading.Condition()
+        cls.commands, cls.statuses = [], []
+        cls.joints = rospy.Publisher('joint_states', JointState, queue_size=1000)
+        cls.setpoints = rospy.Publisher('execution/setpoint', MultiDOFJointTrajectory, queue_size=1000)
+        cls.subscribers = [
+            rospy.Subscriber('joint_command', JointTrajectory, cls.store, cls.commands),
+            rospy.Subscriber('control/status', ControlStatus, cls.store, cls.statuses)]
+        deadline = rospy.get_time() + PATIENCE
+        while (min(cls.joints.get_num_connections(), cls.setpoints.get_num_connections(),
+                   *(s.get_num_connections() for s in cls.subscribers)) == 0
+               and rospy.get_time() < deadline):
+            rospy.sleep(0.02)
+
+    @classmethod
+    def store(cls, message, messages):
+        with cls.received:
+            messages.append(message)
+            cls.received.notify_all()
+
+    def setUp(self):
+        ArmControllerNode.run_begin -= 1000
+        del self.commands[:], self.statuses[:]
+
+    def stamp(self, tick):
+        return rospy.Time.from_sec(self.run_begin) + rospy.Duration(0, int(1e9 * TICK) * tick)
+
+    def answers(self, count):
+        with self.received:
+            done = self.received.wait_for(
+                lambda: len(self.commands) >= count and len(self.statuses) >= count, PATIENCE)
+        self.assertTrue(done, '%d commands and %d statuses of %d' %
+                        (len(self.commands), len(self.statuses), count))
+        return list(zip(self.commands, self.statuses))
+
+    def ask(self, tick, message, positions=HOME, shuffled=False):
+        self.joints.publish(joint_state(self.stamp(tick), positions, shuffled))
+        self.setpoints.publish(message)
+        command, status = self.answers(tick + 1)[tick]
+        for header in (command.header, status.header):
+            self.assertEqual(header.stamp, self.stamp(tick))
+        self.assertEqual(command.joint_names, ARM)
+        self.assertEqual(len(command.points), 1)
+        self.assertEqual(command.points[0].time_from_start, rospy.Duration(0, 10000000))
+        for value in command.points[0].positions + command.points[0].velocities:
+            self.assertTrue(math.isfinite(value))
+        return command, status
+
+    def test_one_tick_in_gives_one_command_and_one_status_of_the_same_stamp(self):
+        command, status = self.ask(0, hold(self.stamp(0)))
+        self.assertEqual(list(command.points[0].positions), HOME)
+        self.assertEqual(status.code, ControlStatus.HOLDING)
+        command, status = self.ask(1, setpoint(self.stamp(1)))
+        self.assertEqual(status.code, ControlStatus.FOLLOWING, status.reason)
+        self.assertNotEqual(list(command.points[0].positions), HOME)
+        rospy.sleep(0.2)
+        self.assertEqual((len(self.commands), len(self.statuses)), (2, 2))
+
+    def test_joints_are_matched_by_name(self):
+        command, _ = self.ask(0, hold(self.stamp(0)), shuffled=True)
+        self.assertEqual(list(command.points[0].positions), HOME)
+
+    def test_joint_states_without_the_arm_are_no_tick(self):
+        other = JointState(name=LEGS, position=[0.1, 0.2])
+        other.header.stamp = self.stamp(50)
+        self.joints.publish(other)
+        command, _ = self.ask(0, hold(self.stamp(0)))
+        self.assertEqual(list(command.points[0].positions), HOME)
+
+    def test_joints_that_are_not_finite_make_it_hold(self):
+        self.ask(0, hold(self.stamp(0)))
+        command, status = self.ask(1, setpoint(self.stamp(1)), HOME[:6] + [float('nan')])
+        self.assertEqual(status.code, ControlStatus.HOLDING)
+        self.assertIn('j2s7s300_joint_7', status.reason)
+        self.assertEqual(list(command.points[0].positions), HOME)
+
+    def test_bad_setpoints_are_refused_with_the_reason(self):
+        nan = float('nan')
+        two = setpoint(self.stamp(7))
+        two.points = two.points * 2
+        catalogue = [
+            (setpoint(self.stamp(1), position=(0.4, nan, 0.5)), 'position'),
+            (setpoint(self.stamp(2), position=(1e9, 0.0, 0.5)), 'position'),
+            (setpoint(self.stamp(3), rotation=(0.0, 0.0, 0.0, 0.0)), 'quaternion'),
+            (setpoint(self.stamp(4), rotation=(nan, 0.0, 0.0, 1.0)), 'quaternion'),
+            (setpoint(self.stamp(5), frame='world'), 'frame_id'),
+            (setpoint(self.stamp(6), hand='elbow'), 'joint_names'),
+            (two, 'one point')]
+        self.ask(0, hold(self.stamp(0)))
+        for tick, (message, reason) in enumerate(catalogue, start=1):
+            command, status = self.ask(tick, message)
+            self.assertEqual(status.code, ControlStatus.INVALID_SETPOINT, reason)
+            self.assertIn(reason, status.reason)
+            self.assertEqual(list(command.points[0].positions), HOME)
+
+    def test_silent_setpoints_make_it_hold_by_data_time(self):
+        self.ask(0, hold(self.stamp(0)))
+        for tick in range(1, 32):
+            self.joints.publish(joint_state(self.stamp(tick), HOME))
+        rospy.sleep(0.5)
+        self.assertEqual(len(self.commands), 1)
+        self.joints.publish(joint_state(self.stamp(32), HOME))
+        for command, status in self.answers(33)[1:]:
+            self.assertEqual(status.code, ControlStatus.STALE_SETPOINT)
+            self.assertEqual(list(command.points[0].positions), HOME)
+
+    def test_interleavings_give_identical_outputs(self):
+        def outputs(seed):
+            self.setUp()
+            order = random.Random(seed)
+            joints, points = 0, 0
+            while joints < 60 or points < 60:
+                if points == 60 or (joints < 60 and joints - points < 20 and order.random() < 0.5):
+                    self.joints.publish(joint_state(self.stamp(joints), HOME))
+                    joints += 1
+                else:
+                    y = 0.02 * math.sin(0.1 * points)
+                    self.setpoints.publish(setpoint(self.stamp(points), position=(0.4, y, 0.5)))
+                    points += 1
+                rospy.sleep(0.001)
+            return [(c.points[0].positions, c.points[0].velocities, s.code, s.reason, s.deviation,
+                     s.position_error) for c, s in self.answers(60)]
+        first = outputs(1)
+        self.assertEqual(len(first), 60)
+        for seed in (2, 3, 4):
+            self.assertEqual(outputs(seed), first)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_arm_controller_node')
+    rostest.rosrun('prf_control', 'arm_controller_node', ArmControllerNode)

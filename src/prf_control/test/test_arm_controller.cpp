@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_control/arm_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace prf_control {
+namespace {
+
+using jaco_v60_description::forward;
+
+constexpr std::int64_t kTick = 10'000'000;
+constexpr double kDt = 0.01;
+
+ArmControllerParams params() {
+  ArmControllerParams params{};
+  params.follower = {0.95, 4.0, 0.3, 0.1, 0.5, 0.1, 0.2};
+  params.max_tracking_error = 0.2;
+  params.max_wait = 0.3;
+  params.joint_prefix = "joint_";
+  return params;
+}
+
+JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
+
+JointSample joints_at(std::int64_t tick, const JointVector& q = home()) {
+  return {tick * kTick, q, ""};
+}
+
+JointSample faulty_joints_at(std::int64_t tick) {
+  return {tick * kTick, std::nullopt, "joint_3 bad"};
+}
+
+Setpoint pose_setpoint(const Eigen::Isometry3d& pose) {
+  Setpoint setpoint;
+  setpoint.kind = SetpointKind::kPose;
+  setpoint.pose.hand_in_base = pose;
+  return setpoint;
+}
+
+Setpoint beside_home(double offset) {
+  Eigen::Isometry3d pose = forward(home());
+  pose.translation().y() += offset;
+  return pose_setpoint(pose);
+}
+
+// The answer to one tick and its set-point.
+Answer ask(ArmController& controller, const JointSample& joints, const Setpoint& setpoint) {
+  auto answers = controller.add_joints(joints);
+  for (const Answer& more : controller.add_setpoint(joints.stamp_ns, setpoint)) {
+    answers.push_back(more);
+  }
+  EXPECT_EQ(answers.size(), 1u);
+  return answers.empty() ? Answer() : answers.front();
+}
+
+TEST(ArmController, StartsFromTheMeasuredJointsAtRest) {
+  ArmController controller(params());
+  const Answer answer = ask(controller, joints_at(1), beside_home(0.3));
+  EXPECT_EQ(answer.stamp_ns, kTick);
+  EXPECT_TRUE(answer.restarted);
+  EXPECT_EQ(answer.code, ControlCode::kHolding);
+  EXPECT_EQ(answer.command.position, home());
+  EXPECT_EQ(answer.command.velocity, JointVector::Zero());
+}
+
+TEST(ArmController, SaysNothingBeforeItKnowsTheJoints) {
+  ArmController controller(params());
+  EXPECT_TRUE(controller.add_setpoint(kTick, beside_home(0.0)).empty());
+  EXPECT_TRUE(controller.add_joints(faulty_joints_at(1)).empty());
+  EXPECT_EQ(ask(controller, joints_at(2), beside_home(0.0)).command.position, home());
+}
+
+TEST(ArmController, FollowsAndReportsErrorAndDeviation) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  const Answer answer = ask(controller, joints_at(1), beside_home(0.05));
+  EXPECT_EQ(answer.code, ControlCode::kFollowing);
+  EXPECT_TRUE(answer.reason.empty());
+  EXPECT_NEAR(answer.position_error, 0.05, 1e-12);
+  EXPECT_NEAR(answer.orientation_error, 0.0, 1e-12);
+  EXPECT_LT(answer.deviation, 0.05);
+  EXPECT_GT(answer.deviation, 0.049);
+}
+
+TEST(ArmController, NamesTheJointThatSlowsItDown) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  Answer answer;
+  JointVector measured = home();
+  for (int i = 1; i < 40; ++i) {
+    answer = ask(controller, joints_at(i, measured), beside_home(-0.4));
+    measured = answer.command.position;
+  }
+  EXPECT_EQ(answer.code, ControlCode::kLimited);
+  EXPECT_NE(answer.reason.find("joint_"), std::string::npos);
+  EXPECT_NE(answer.reason.find("bound 0.79587 rad/s"), std::string::npos) << answer.reason;
+}
+
+TEST(ArmController, ReportsASetpointOutOfReach) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  const Answer answer = ask(controller, joints_at(1), beside_home(2.0));
+  EXPECT_EQ(answer.code, ControlCode::kUnreachable);
+  EXPECT_FALSE(answer.reason.empty());
+  EXPECT_NEAR(answer.deviation, 2.0, 0.01);
+}
+
+TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  EXPECT_EQ(ask(controller, joints_at(1), hold_setpoint()).code, ControlCode::kHolding);
+
+  const Answer refused = ask(controller, joints_at(2), refused_setpoint("wrong frame"));
+  EXPECT_EQ(refused.code, ControlCode::kInvalidSetpoint);
+  EXPECT_EQ(refused.reason, "wrong frame");
+  EXPECT_EQ(refused.command.position, home());
+
+  const Answer faulty = ask(controller, faulty_joints_at(3), beside_home(0.05));
+  EXPECT_EQ(faulty.code, ControlCode::kHolding);
+  EXPECT_EQ(faulty.reason, "joint_3 bad");
+  EXPECT_EQ(faulty.command.position, home());
+}
+
+TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
+  ArmController controller(params());
+  std::vector<Answer> answers;
+  JointVector measured = home();
+  const auto add = [&](const std::vector<Answer>& more) {
+    for (const Answer& answer : more) {
+      answers.push_back(answer);
+      measured = answer.command.position;
+    }
+  };
+  for (int i = 0; i < 300; ++i) {
+    add(controller.add_joints(joints_at(i, measured)));
+    const bool silent = i >= 100 && i < 200;
+    if (!silent) add(controller.add_setpoint(i * kTick, beside_home(0.1)));
+  }
+  ASSERT_EQ(answers.size(), 300u);
+  for (std::size_t i = 1; i < answers.size(); ++i) {
+    EXPECT_EQ(answers[i].stamp_ns, static_cast<std::int64_t>(i) * kTick);
+    const bool stale = answers[i].code == ControlCode::kStaleSetpoint;
+    EXPECT_EQ(stale, i >= 100 && i <= 200) << i;  // tick 200 came before its set-point
+    const JointVector step = answers[i].command.position - answers[i - 1].command.position;
+    EXPECT_LE(step.cwiseAbs().maxCoeff(), 0.0085);
+    const bool at_rest = step == JointVector::Zero();
+    EXPECT_TRUE(at_rest || i < 130 || i >= 200) << i;
+  }
+  EXPECT_LE(answers.back().deviation, 1e-6);
+}
+
+TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  JointVector moved = home();
+  moved[3] += 0.25;
+  const Answer answer = ask(controller, joints_at(1, moved), beside_home(0.0));
+  EXPECT_TRUE(answer.restarted);
+  EXPECT_NE(answer.reason.find("joint_4"), std::string::npos);
+  EXPECT_EQ(answer.command.position, moved);
+}
+
+TEST(ArmController, TakesAnEndlessJointInAnotherTurnAsTheSame) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(0), hold_setpoint());
+  JointVector turned = home();
+  turned[0] += 2.0 * M_PI;
+  turned[6] -= 2.0 * M_PI;
+  const Answer answer = ask(controller, joints_at(1, turned), hold_setpoint());
+  EXPECT_FALSE(answer.restarted);
+  EXPECT_EQ(answer.command.position, home());
+}
+
+TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
+  ArmController controller(params());
+  (void)ask(controller, joints_at(100), hold_setpoint());
+  EXPECT_FALSE(ask(controller, joints_at(101), beside_home(0.02)).restarted);
+  EXPECT_TRUE(ask(controller, joints_at(500), beside_home(0.02)).restarted);
+  const Answer first = ask(controller, joints_at(3), beside_home(0.02));
+  EXPECT_TRUE(first.restarted);
+  EXPECT_EQ(first.command.position, home());
+  EXPECT_EQ(controller.counts().restarts, 3u);
+  EXPECT_EQ(controller.joiner_counts().new_runs, 1u);
+}
+
+// A random run: far jumps, holds, refusals, faulty joints, missing set-points.
+std::vector<Answer> random_run(unsigned seed) {
+  std::mt19937 data(7);
+  std::mt19937 order(seed);
+  std::uniform_real_distribution<double> offset(-0.4, 0.4);
+  ArmController controller(params());
+  std::vector<Answer> answers;
+  std::vector<std::pair<int, Setpoint>> setpoints;
+  std::vector<JointSample> samples;
+  Setpoint current = beside_home(0.0);
+  for (int i = 0; i < 400; ++i) {
+    if (i % 40 == 0) current = beside_home(offset(data));
+    if (i % 90 == 89) current = hold_setpoint();
+    if (i % 130 == 129) current = refused_setpoint("bad");
+    samples.push_back(i % 50 == 49 ? faulty_joints_at(i) : joints_at(i));
+    if (i % 17 != 0 || i == 0) setpoints.emplace_back(i, current);
+  }
+  std::size_t next_sample = 0;
+  std::size_t next_setpoint = 0;
+  while (next_sample < samples.size() || next_setpoint < setpoints.size()) {
+    const int tick_time = next_sample < samples.size() ? static_cast<int>(next_sample) : 1000;
+    const int setpoint_time =
+        next_setpoint < setpoints.size() ? setpoints[next_setpoint].first : 1000;
+    const int lead = tick_time - setpoint_time;
+    const bool tick_next = lead < -20 || (lead < 20 && order() % 2 == 0);
+    const auto more = tick_next ? controller.add_joints(samples[next_sample++])
+                                : controller.add_setpoint(setpoint_time * kTick,
+                                                          setpoints[next_setpoint++].second);
+    answers.insert(answers.end(), more.begin(), more.end());
+  }
+  return answers;
+}
+
+TEST(ArmController, AnswersTheSameBitsWhateverTheInterleaving) {
+  const auto first = random_run(0);
+  ASSERT_EQ(first.size(), 400u);
+  for (unsigned seed = 1; seed < 20; ++seed) {
+    const auto other = random_run(seed);
+    ASSERT_EQ(other.size(), first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      ASSERT_EQ(other[i].stamp_ns, first[i].stamp_ns);
+      ASSERT_EQ(other[i].code, first[i].code) << i;
+      ASSERT_EQ(other[i].reason, first[i].reason);
+      ASSERT_EQ(other[i].command.position, first[i].command.position) << i;
+      ASSERT_EQ(other[i].command.velocity, first[i].command.velocity);
+      ASSERT_EQ(other[i].deviation, first[i].deviation);
+      ASSERT_EQ(other[i].position_error, first[i].position_error);
+    }
+  }
+}
+
+// Joints that follow v + gain (q_command - q) through a first-order lag, as a servo drive does.
+struct Servo {
+  JointVector position;
+  JointVector velocity = JointVector::Zero();
+
+  void run(const MotionState& command) {
+    constexpr double kGain = 20.0;  // 1/s
+    constexpr double kLag = 0.01;   // s
+    constexpr int kSteps = 10;
+    for (int i = 0; i < kSteps; ++i) {
+      const double h = kDt / kSteps;
+      const JointVector wanted = command.velocity + kGain * (command.position - position);
+      velocity += (wanted - velocity) * (1.0 - std::exp(-h / kLag));
+      position += h * velocity;
+    }
+  }
+};
+
+// The error of the hand, set-point to plant at the same tick, over four periods of sway.
+double sway_error(double amplitude, double frequency, bool feed_forward) {
+  ArmController controller(params());
+  Servo servo{home()};
+  double worst = 0.0;
+  const int ticks = static_cast<int>(5.0 * 2.0 * M_PI / frequency / kDt);
+  for (int i = 0; i < ticks; ++i) {
+    const double phase = frequency * kDt * i;
+    Setpoint setpoint = beside_home(amplitude * std::sin(phase));
+    if (feed_forward) {
+      setpoint.pose.linear_velocity.y() = amplitude * frequency * std::cos(phase);
+    }
+    const Answer answer = ask(controller, joints_at(i, servo.position), setpoint);
+    if (i > ticks / 5) worst = std::max(worst, answer.position_error);
+    servo.run(answer.command);
+  }
+  return worst;
+}
+
+TEST(ArmController, FollowsTheSwayOfThePlatformThroughAServo) {
+  const double heavy = sway_error(0.05, 2.4, true);
+  const double without = sway_error(0.05, 2.4, false);
+  std::cout << "worst error of the hand, sway 0.05 m at 2.4 rad/s: " << 1e3 * heavy
+            << " mm with velocity feed-forward, " << 1e3 * without << " mm without\n";
+  EXPECT_LE(heavy, 2e-3);
+  EXPECT_GT(without, heavy);
+}
+
+TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
+  const auto refusal = [](const ArmControllerParams& bad) -> std::string {
+    try {
+      ArmController controller(bad);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(params()), "");
+  ArmControllerParams bad = params();
+  bad.max_tracking_error = std::nan("");
+  EXPECT_NE(refusal(bad).find("max_tracking_error"), std::string::npos);
+  bad = params();
+  bad.max_wait = -0.1;
+  EXPECT_NE(refusal(bad).find("max_wait"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace prf_control
