@@ -43,22 +43,31 @@ TickGate::TickGate(const GateParameters& parameters) : parameters_(parameters) {
 
 void TickGate::begin_new_run() { *this = TickGate(parameters_); }
 
+// Forecasts may arrive before the first tick; those of another run are dropped in either order.
+void TickGate::begin_at(Stamp first_tick) {
+  first_tick_ = first_tick;
+  const auto foreign = [&](const ForecastArrival& arrival) {
+    return precedes_run(arrival.stamp) || arrival.stamp > first_tick + kClockJump;
+  };
+  forecasts_.erase(std::remove_if(forecasts_.begin(), forecasts_.end(), foreign), forecasts_.end());
+  newest_forecast_.reset();
+  if (!forecasts_.empty()) newest_forecast_ = forecasts_.back().stamp;
+}
+
 Push TickGate::push_tick(Stamp stamp) {
   if (newest_tick_ == stamp) return Push::kOld;
   const bool new_run = newest_tick_ && stamp < *newest_tick_;
   if (new_run) begin_new_run();
   newest_tick_ = stamp;
-  if (!first_tick_) {
-    first_tick_ = stamp;
-    while (!forecasts_.empty() && precedes_run(forecasts_.front().stamp)) forecasts_.pop_front();
-  }
+  if (!first_tick_) begin_at(stamp);
   ticks_.push_back(stamp);
   return new_run ? Push::kNewRun : Push::kTaken;
 }
 
 Push TickGate::push_forecast(ForecastArrival arrival) {
   if (newest_tick_ && arrival.stamp > *newest_tick_ + kClockJump) return Push::kFuture;
-  const bool new_run = newest_forecast_ && arrival.stamp < *newest_forecast_ - kClockJump;
+  const std::optional<Stamp> known = newest_forecast_ ? newest_forecast_ : first_tick_;
+  const bool new_run = known && arrival.stamp < *known - kClockJump;
   if (new_run) begin_new_run();
   if (newest_forecast_ && arrival.stamp <= *newest_forecast_) return Push::kOld;
   if (precedes_run(arrival.stamp)) return Push::kOld;
@@ -69,7 +78,9 @@ Push TickGate::push_forecast(ForecastArrival arrival) {
 }
 
 Push TickGate::push_answer(PlanAnswer answer) {
-  if (newest_tick_ && answer.stamp > *newest_tick_ + kClockJump) return Push::kFuture;
+  // An answer follows its progress, and that its tick: without one it belongs to another run.
+  if (!first_tick_ || answer.stamp < *first_tick_) return Push::kOld;
+  if (answer.stamp > *newest_tick_ + kClockJump) return Push::kFuture;
   if (newest_answer_ && answer.stamp <= *newest_answer_) return Push::kOld;
   newest_answer_ = answer.stamp;
   plan_stale_ = false;

@@ -201,7 +201,8 @@ TEST(TickGate, ForgetsEverythingWhenTheTicksGoBack) {
   fresh.push_tick(milliseconds(60));
   EXPECT_EQ(describe(*gate.next()), describe(*fresh.next()));
   EXPECT_EQ(gate.push_forecast(forecast(milliseconds(60))), Push::kTaken);
-  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
+  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kOld);
+  EXPECT_EQ(gate.push_answer(answer(milliseconds(60))), Push::kTaken);
 }
 
 TEST(TickGate, ForgetsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
@@ -209,6 +210,8 @@ TEST(TickGate, ForgetsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
   gate.push_forecast(forecast(milliseconds(1500)));
   EXPECT_EQ(gate.push_forecast(forecast(milliseconds(400))), Push::kNewRun);
   EXPECT_EQ(gate.push_forecast(forecast(milliseconds(433))), Push::kTaken);
+  gate.push_tick(std::chrono::seconds(5));
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(466))), Push::kNewRun);
 }
 
 TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
@@ -230,6 +233,16 @@ TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
               "100000000:\n110000000:\n120000000:\n130000000:\n140000000:\n150000000:\n"
               "160000000: f100000000\n");
   }
+}
+
+TEST(TickGate, IgnoresWhatIsLeftOfAnotherRunBeforeItsFirstTick) {
+  TickGate gate(kGate);
+  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(90))), Push::kTaken);
+  EXPECT_EQ(gate.push_answer(answer(std::chrono::seconds(90))), Push::kOld);
+  gate.push_tick(Stamp{0});
+  EXPECT_EQ(gate.push_forecast(forecast(Stamp{0})), Push::kTaken);
+  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
+  EXPECT_EQ(describe(*gate.next()), "0:\n");
 }
 
 TEST(GateParameters, AreRefusedByName) {

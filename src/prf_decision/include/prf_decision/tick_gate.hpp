@@ -71,6 +71,7 @@ class TickGate {
 
  private:
   void begin_new_run();
+  void begin_at(Stamp first_tick);
   [[nodiscard]] bool precedes_run(Stamp forecast) const;
   [[nodiscard]] bool forecast_may_be_due(Stamp tick) const;
   [[nodiscard]] bool answer_is_due() const;

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parameters the decision node must refuse, with exit code 2 and their name."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import yaml
+
+PACKAGE = rospkg.RosPack().get_path("prf_decision")
+CONFIG = os.path.join(PACKAGE, "config", "decision.yaml")
+HMM = os.path.join(PACKAGE, "config", "hmm_default.yaml")
+NAME = "/refused_decision"
+
+
+def start_with(parameters):
+    """Exit code and output of the node with these private parameters."""
+    if rospy.has_param(NAME):
+        rospy.delete_param(NAME)
+    rospy.set_param(NAME, parameters)
+    command = ["rosrun", "prf_decision", "decision_node", "__name:=" + NAME[1:]]
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30,
+                            check=False)
+    return result.returncode, result.stdout.decode()
+
+
+class DecisionRefusals(unittest.TestCase):
+    def setUp(self):
+        with open(CONFIG, encoding="utf-8") as file:
+            self.valid = yaml.safe_load(file)
+        self.valid.update(framework=True, hmm_file=HMM)
+
+    def assert_refused(self, parameters, culprit):
+        code, output = start_with(parameters)
+        self.assertEqual(code, 2, (culprit, output))
+        fatal = [line for line in output.splitlines() if "FATAL" in line]
+        self.assertEqual(len(fatal), 1, output)
+        self.assertIn(culprit, fatal[0])
+
+    def test_every_missing_key_is_named(self):
+        for key in self.valid:
+            self.assert_refused({k: v for k, v in self.valid.items() if k != key}, key)
+
+    def test_every_bad_value_is_named_with_its_bound(self):
+        nan, infinity = float("nan"), float("inf")
+        catalogue = [
+            ("pipeline_delay", 0.0, "pipeline_delay is 0.000000 s, must be > 0"),
+            ("pipeline_delay", nan, "pipeline_delay is nan, must be finite"),
+            ("camera_period", 0.004, "camera_period less 5 ms is -0.001000 s, must be > 0"),
+            ("max_wait", -1, "max_wait is -1.000000 s, must be > 0"),
+            ("max_wait", "soon", "max_wait = soon, must be a number"),
+            ("lead", -0.01, "lead is -0.010000, must be >= 0"),
+            ("hold_time", -1.0, "hold_time is -1.000000, must be >= 0"),
+            ("tracking_tolerance", 0, "tracking_tolerance is 0.000000, must be > 0"),
+            ("dwell_time", nan, "dwell_time is nan"),
+            ("time_limit", infinity, "time_limit is inf"),
+            ("catch_up_speed", [0.2], "catch_up_speed"),
+            ("catch_up_speed", [0.2, 0.0], "catch_up_speed angular is 0.000000, must be > 0"),
+            ("coast_limits", [0.3, 0.2, 5.0], "coast_limits[1] is 0.200000, must be > coast"),
+            ("max_reach", nan, "max_reach is nan, must be > 0"),
+            ("workspace_radius", -2.0, "workspace_radius is -2.000000, must be > 0"),
+            ("max_target_speed", infinity, "max_target_speed is inf, must be > 0"),
+            ("framework", "yes", "framework = yes, must be true or false"),
+            ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
+            ("speed", 1.0, "speed = 1, must be absent"),
+        ]
+        for key, value, culprit in catalogue:
+            self.assert_refused(dict(self.valid, **{key: value}), culprit)
+
+    def test_a_faulty_hmm_file_is_named_with_its_key(self):
+        with open(HMM, encoding="utf-8") as file:
+            text = file.read()
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write(text.replace("forward: 0.80", "forward: 0.90"))
+            file.flush()
+            self.assert_refused(dict(self.valid, hmm_file=file.name),
+                                "HMM file '%s': initial sums to 1.1, must be 1" % file.name)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_decision_refusals")
+    rostest.rosrun("prf_decision", "decision_refusals", DecisionRefusals)
