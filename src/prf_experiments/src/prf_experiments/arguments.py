@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`key:=value` arguments with a list of what is valid."""
+import math
+import os
+from dataclasses import dataclass
+from typing import Any, Callable
+
+
+class ArgumentError(ValueError):
+    """An argument is unknown or its value invalid."""
+
+
+@dataclass(frozen=True)
+class Argument:
+    default: Any
+    valid: str  # shown to people
+    parse: Callable[[str], Any]  # raises ValueError
+    meaning: str
+
+
+def choice(*values):
+    def parse(text):
+        if text not in values:
+            raise ValueError
+        return text
+    return {"valid": "|".join(values), "parse": parse}
+
+
+def boolean():
+    def parse(text):
+        if text.lower() not in ("true", "false"):
+            raise ValueError
+        return text.lower() == "true"
+    return {"valid": "true|false", "parse": parse}
+
+
+def integer(low, high):
+    def parse(text):
+        value = int(text)
+        if not low <= value <= high:
+            raise ValueError
+        return value
+    return {"valid": f"integer {low}..{high}", "parse": parse}
+
+
+def number(low, high):
+    def parse(text):
+        value = float(text)
+        if not (math.isfinite(value) and low <= value <= high):
+            raise ValueError
+        return value
+    return {"valid": f"number {low:g}..{high:g}", "parse": parse}
+
+
+def path():
+    def parse(text):
+        if not text:
+            raise ValueError
+        return os.path.abspath(os.path.expanduser(text))
+    return {"valid": "a path", "parse": parse}
+
+
+def usage(arguments):
+    width = max(len(name) for name in arguments) + 2
+    return "\n".join(f"  {name + ':=':<{width}} {argument.valid:<24} {argument.meaning}"
+                     f" [{show(argument.default)}]" for name, argument in arguments.items())
+
+
+def show(value):
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def parse(words, arguments):
+    """{name: value} for every argument; defaults where `words` are silent."""
+    values = {name: argument.default for name, argument in arguments.items()}
+    given = set()
+    for word in words:
+        name, separator, text = word.partition(":=")
+        if not separator:
+            raise ArgumentError(f"'{word}' is not of the form name:=value")
+        if name not in arguments:
+            raise ArgumentError(f"unknown argument '{name}'")
+        if name in given:
+            raise ArgumentError(f"'{name}' is given twice")
+        given.add(name)
+        try:
+            values[name] = arguments[name].parse(text)
+        except ValueError:
+            raise ArgumentError(
+                f"invalid {name}:={text}, valid: {arguments[name].valid}") from None
+    return values

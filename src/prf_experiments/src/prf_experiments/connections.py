@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which node publishes what to whom, and whether those pairs are really connected."""
+import http.client
+import xmlrpc.client
+
+import rosgraph
+
+CALLER = "/prf_experiments"
+TIMEOUT = 5.0  # s for one answer of a node
+
+# topic: (publisher, subscribers that the data flow cannot do without)
+FRAMEWORK_FLOW = {
+    "/tf": ("robot_state_publisher", ["target_predictor"]),
+    "/tag_detections": ("tag_detector", ["target_predictor"]),
+    "/target/forecast": ("target_predictor", ["decision", "skill_planner"]),
+    "/execution/progress": ("decision", ["skill_planner"]),
+    "/skill/trajectory": ("skill_planner", ["decision"]),
+    "/execution/setpoint": ("decision", ["arm_controller"]),
+    "/joint_command": ("arm_controller", []),
+    "/control/status": ("arm_controller", []),
+}
+SENSOR_SUBSCRIBERS = {
+    "/joint_states": ["robot_state_publisher", "decision", "arm_controller"],
+    "/camera/image_raw": ["tag_detector"],
+    "/camera/camera_info": ["tag_detector"],
+}
+SIMULATOR_INPUTS = ["/joint_command", "/execution/progress"]
+FRAMEWORK_NODES = ["robot_state_publisher", "tag_detector", "target_predictor", "decision",
+                   "skill_planner", "arm_controller"]
+
+
+def trial_links(source, simulated=True):
+    """(topic, publisher, subscriber) without which nothing goes; `source` gives the sensor topics."""
+    links = [(topic, publisher, subscriber)
+             for topic, (publisher, subscribers) in FRAMEWORK_FLOW.items()
+             for subscriber in subscribers]
+    links += [(topic, source, subscriber)
+              for topic, subscribers in SENSOR_SUBSCRIBERS.items() for subscriber in subscribers]
+    if simulated:
+        links += [(topic, FRAMEWORK_FLOW[topic][0], source) for topic in SIMULATOR_INPUTS]
+    return {(topic, "/" + publisher, "/" + subscriber) for topic, publisher, subscriber in links}
+
+
+class _Transport(xmlrpc.client.Transport):
+    def make_connection(self, host):
+        return http.client.HTTPConnection(host, timeout=TIMEOUT)
+
+
+def registered(master):
+    """(topic, publisher, subscriber) for every pair that the master knows."""
+    publishers, subscribers, _ = master.getSystemState()
+    publishing = dict(publishers)
+    return {(topic, publisher, subscriber)
+            for topic, listening in subscribers for subscriber in listening
+            for publisher in publishing.get(topic, []) if publisher != subscriber}
+
+
+def subscriptions(master):
+    """{node: set of topics} of all subscribers that the master knows."""
+    result = {}
+    for topic, nodes in master.getSystemState()[1]:
+        for node in nodes:
+            result.setdefault(node, set()).add(topic)
+    return result
+
+
+def established(master, publishers):
+    """(topic, publisher, subscriber) for every link that one of the publishers really serves."""
+    links = set()
+    for publisher in publishers:
+        node = xmlrpc.client.ServerProxy(master.lookupNode(publisher), transport=_Transport())
+        _, _, connections = node.getBusInfo(CALLER)
+        links |= {(entry[4], publisher, entry[1]) for entry in connections if entry[2] == "o"}
+    return links
+
+
+def missing(master, required):
+    """Links that are required or registered but not established; empty when all is connected."""
+    wanted = set(required)
+    try:
+        wanted |= registered(master)
+        publishers = {link[1] for link in wanted}
+        known = {node for _, nodes in master.getSystemState()[0] for node in nodes}
+        return wanted - established(master, publishers & known)
+    except (OSError, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException):
+        return wanted

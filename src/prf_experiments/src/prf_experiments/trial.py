@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs one closed-loop trial: launch, record, simulate, judge, report."""
+import contextlib
+import json
+import os
+import subprocess
+import sys
+
+import rospkg
+
+from prf_experiments import arguments as args
+from prf_experiments import connections, demonstration, judge, processes, recording, session
+
+SIMULATOR = "platform_sim"
+START_SERVICE = "/platform_sim/start"
+EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
+
+
+def trial_arguments():
+    """Valid arguments of a trial."""
+    argument = args.Argument
+    return {
+        "motion": argument("light", **args.choice("none", "light", "heavy"),
+                           meaning="how the platform moves"),
+        "gait": argument("stand", **args.choice("stand"), meaning="what the legs do"),
+        "planner": argument("elte", **args.choice("elte"), meaning="how the skill is adapted"),
+        "predictor": argument("ukf", **args.choice("ukf"), meaning="how the target is predicted"),
+        "framework": argument(True, **args.boolean(),
+                              meaning="false: adapt once, to the first sight, execute blindly"),
+        "seed": argument(1, **args.integer(0, 2**31 - 1), meaning="of every random draw"),
+        "time_limit": argument(60.0, **args.number(1.0, 600.0), meaning="simulated s"),
+        "real_time_factor": argument(0.0, **args.number(0.0, 100.0),
+                                     meaning="at most so fast, 0: as fast as it goes"),
+        "demonstration": argument(session.packaged("demonstrations", "inspect_box.csv"),
+                                  **args.path(), meaning="CSV file of the skill"),
+        "results": argument(os.path.abspath("results"), **args.path(),
+                            meaning="folder that gets the trial's folder"),
+        "keep_bag": argument(True, **args.boolean(), meaning="false: delete the bag at the end"),
+    }
+
+
+IN_NAME = ["motion", "gait", "planner", "predictor", "framework", "seed"]
+LAUNCHED = IN_NAME + ["time_limit", "real_time_factor", "demonstration"]
+
+
+def versions():
+    """What ran, as far as it can be told."""
+    stack = rospkg.RosPack()
+    result = {"prf_experiments": stack.get_manifest("prf_experiments").version,
+              "rosbag": stack.get_manifest("rosbag").version,
+              "python": ".".join(map(str, sys.version_info[:3]))}
+    with contextlib.suppress(OSError, subprocess.SubprocessError):
+        result["commit"] = subprocess.run(
+            ["git", "-C", session.packaged(), "describe", "--always", "--dirty"], check=True,
+            capture_output=True, text=True, timeout=10).stdout.strip()
+    return result
+
+
+def describe(values):
+    """What the bag says about itself."""
+    valid = trial_arguments()
+    words = [f"{name}:={args.show(values[name])}" for name in LAUNCHED
+             if name in IN_NAME or values[name] != valid[name].default]
+    return {"command": " ".join(["rosrun prf_experiments run_trial"] + words),
+            "arguments": {name: values[name] for name in LAUNCHED}, "versions": versions()}
+
+
+def simulate(run, description):
+    """Runs the trial to the simulator's end and leaves a closed bag. Returns the wall time, s."""
+    with run.running() as launch, contextlib.ExitStack() as stack:
+        from prf_experiments.observer import Observer  # reads the environment that running() set
+        observer = Observer(description)
+        stack.callback(observer.close)
+        recorder = stack.enter_context(run.recording())
+        run.wait_until_connected(launch, recorder)
+        run.save_parameters()
+        observer.call(START_SERVICE)
+        wall = run.wait_for_driver(launch, recorder, observer.status)
+        run.close(launch, recorder)
+        return wall
+
+
+def evaluate(folder, description, wall, failure, progress):
+    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
+    from prf_experiments import report  # matplotlib takes its time
+    bag, data = os.path.join(folder, "trial.bag"), None
+    verdict = judge.invalid(failure)
+    if not failure:
+        progress.show("judging", always=True)
+        try:
+            data = recording.read(bag)
+            verdict = judge.judge(data)
+        except recording.RecordingError as error:
+            verdict = judge.invalid(str(error))
+    simulated = verdict.figures.get("duration_s")
+    content = {**verdict.as_json(), **description, "wall_time_s": wall,
+               "simulated_per_real_time": simulated / wall if simulated and wall else None}
+    with open(os.path.join(folder, "verdict.json"), "w", encoding="utf-8") as stream:
+        json.dump(content, stream, indent=2)
+        stream.write("\n")
+    progress.show("drawing the report", always=True)
+    report.write(os.path.join(folder, "report.html"), bag, data, content,
+                 demonstration.read(description["arguments"]["demonstration"]))
+    progress.close()
+    return content
+
+
+def run(values, launch_file=None):
+    """Runs one trial and prints what people want to know. Returns the exit code."""
+    demonstration.read(values["demonstration"])
+    description = describe(values)
+    name = "_".join(f"{key}-{args.show(values[key])}" for key in IN_NAME)
+    folder = session.create_folder(values["results"], name)
+    trial = session.Session(
+        folder=folder, bag="trial.bag",
+        launch_file=launch_file or session.packaged("launch", "trial.launch"),
+        launch_arguments=[f"{key}:={args.show(values[key])}" for key in LAUNCHED]
+        + ["paused:=true"],
+        topics=recording.RECORDED,
+        links=connections.trial_links(SIMULATOR)
+        | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR),
+        driver=SIMULATOR)
+    print(description["command"], flush=True)
+    failure, wall = "", None
+    try:
+        wall = simulate(trial, description)
+    except (session.SessionError, processes.ProcessError) as error:
+        failure = str(error)
+    finally:
+        trial.progress.close()
+
+    content = evaluate(folder, description, wall, failure, trial.progress)
+    if not values["keep_bag"]:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(os.path.join(folder, "trial.bag"))
+    print(f"verdict {content['verdict']}{' (inspected)' if content['inspected'] else ''}: "
+          f"{content['reason']}")
+    if content["simulated_per_real_time"]:
+        print(f"simulated {content['figures']['duration_s']:.1f} s in {wall:.1f} s: "
+              f"{content['simulated_per_real_time']:.2f} times real time")
+    print(folder)
+    return EXIT_INVALID if content["verdict"] == "INVALID" else EXIT_OK
+
+
+def main(words):
+    valid = trial_arguments()
+    if any(word in ("-h", "--help") for word in words):
+        print("usage: run_trial [name:=value ...]\n" + args.usage(valid))
+        return EXIT_OK
+    try:
+        values = args.parse(words, valid)
+    except args.ArgumentError as error:
+        print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
+        return EXIT_USAGE
+    return session.guarded("run_trial", lambda: run(values))
