@@ -32,19 +32,22 @@ void Lockstep::published_joint_states(StampNs tick) {
   ask(Link::kCommand, tick);
 }
 
-void Lockstep::received(Link link, StampNs stamp) {
+bool Lockstep::received(Link link, StampNs stamp) {
   Account& from = account(link);
-  if (from.last_received && stamp <= *from.last_received) return;
+  if (from.last_received && stamp <= *from.last_received) return false;
   from.last_received = stamp;
   while (!from.owed.empty() && from.owed.front() <= stamp) from.owed.pop_front();
   if (link == Link::kDetections) ask(Link::kForecast, stamp);
+  return true;
 }
 
-void Lockstep::received_progress(StampNs stamp, StampNs forecast_stamp) {
-  received(Link::kProgress, stamp);
-  if (forecast_stamp == 0 || forecast_stamp == forecast_in_force_) return;
-  forecast_in_force_ = forecast_stamp;
-  ask(Link::kTrajectory, stamp);
+bool Lockstep::received_progress(StampNs stamp, StampNs forecast_stamp) {
+  if (!received(Link::kProgress, stamp)) return false;
+  if (forecast_stamp != 0 && forecast_stamp != forecast_in_force_) {
+    forecast_in_force_ = forecast_stamp;
+    ask(Link::kTrajectory, stamp);
+  }
+  return true;
 }
 
 bool Lockstep::answered() const {

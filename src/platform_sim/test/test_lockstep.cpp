@@ -36,7 +36,8 @@ TEST(Lockstep, DoesNotTakeAnOldAnswerForTheTick) {
   lockstep.published_joint_states(10 * kMs);
   answer_tick(lockstep, 10 * kMs, 0);
   lockstep.published_joint_states(20 * kMs);
-  answer_tick(lockstep, 10 * kMs, 0);
+  EXPECT_FALSE(lockstep.received(Link::kCommand, 10 * kMs));
+  EXPECT_FALSE(lockstep.received_progress(10 * kMs, 0));
   EXPECT_FALSE(lockstep.answered());
   answer_tick(lockstep, 20 * kMs, 0);
   EXPECT_TRUE(lockstep.answered());

@@ -41,9 +41,9 @@ class Lockstep {
   void published_image(StampNs exposure);
   void published_joint_states(StampNs tick);
 
-  // What came back. A stamp older than one already seen is ignored.
-  void received(Link link, StampNs stamp);
-  void received_progress(StampNs stamp, StampNs forecast_stamp);
+  // What came back. False, and without effect, if it is not newer than what came before.
+  bool received(Link link, StampNs stamp);
+  bool received_progress(StampNs stamp, StampNs forecast_stamp);
 
   // True when everything the simulator needs to go on from the last joint_states is there.
   [[nodiscard]] bool answered() const;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/WrenchStamped.h>
+#include <prf_msgs/ExecutionProgress.h>
+#include <prf_msgs/SkillTrajectory.h>
+#include <prf_msgs/TagDetectionArray.h>
+#include <prf_msgs/TargetForecast.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <trajectory_msgs/JointTrajectory.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conversions.hpp"
+#include "platform_sim/lockstep.hpp"
+
+namespace platform_sim {
+
+// What comes back from the framework, or from the guiding hand.
+class Answers {
+ public:
+  Answers(ros::NodeHandle& node, Peer peer);
+
+  Lockstep& lockstep() { return lockstep_; }
+
+  // The command or wrench received last, each handed out once; none if it was refused.
+  std::optional<ArmCommand> take_command();
+  std::optional<HandWrench> take_wrench();
+
+  // True from the first execution/progress that is DONE or STOPPED.
+  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] unsigned refused() const { return refused_; }
+
+  // Names of the topics that nobody publishes.
+  [[nodiscard]] std::vector<std::string> without_publisher() const;
+  [[nodiscard]] unsigned publishers() const;
+
+ private:
+  template <class Message>
+  void listen(ros::NodeHandle& node, Link link, void (Answers::*receive)(const Message&));
+  template <class Message>
+  void note(ros::NodeHandle& node, Link link);
+  void receive_progress(const prf_msgs::ExecutionProgress& message);
+  void receive_command(const trajectory_msgs::JointTrajectory& message);
+  void receive_wrench(const geometry_msgs::WrenchStamped& message);
+  void refuse(Link link, const std::string& why);
+
+  Lockstep lockstep_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::optional<ArmCommand> command_;
+  std::optional<HandWrench> wrench_;
+  bool finished_ = false;
+  unsigned refused_ = 0;
+};
+
+}  // namespace platform_sim

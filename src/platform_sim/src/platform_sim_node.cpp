@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/ros.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "simulation.hpp"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "platform_sim");
+  using platform_sim::Simulation;
+  ros::NodeHandle node;  // outlives the run: with the last handle the console closes
+  Simulation::Outcome outcome = Simulation::Outcome::kEnded;
+  const int refused = prf_parameters::run([&] {
+    ros::NodeHandle private_node("~");
+    std::string urdf;
+    if (!node.getParam("robot_description", urdf)) {
+      throw std::invalid_argument(node.resolveName("robot_description") +
+                                  " is missing, must hold the URDF of the robot");
+    }
+    const platform_sim::SimParameters params =
+        platform_sim::read_parameters(prf_parameters::PrivateParameters(private_node));
+    outcome = Simulation(node, private_node, params, urdf).run();
+  });
+  if (refused != 0) return refused;
+  constexpr int kSilentExitCode = 3;
+  return outcome == Simulation::Outcome::kSilent ? kSilentExitCode : 0;
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "platform_sim/image_noise.hpp"
+#include "platform_sim/platform_motion.hpp"
+
+namespace platform_sim {
+namespace {
+
+template <class Value>
+[[noreturn]] void refuse(const std::string& name, const Value& value, const std::string& bound) {
+  std::ostringstream message;
+  message << name << " = " << value << ", must be " << bound;
+  throw std::invalid_argument(message.str());
+}
+
+void require_within(const std::string& name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream bound;
+  bound << "in " << low << ".." << high;
+  refuse(name, value, bound.str());
+}
+
+std::string one_of(const std::string& name, const std::string& value,
+                   const std::vector<std::string>& allowed) {
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
+  std::string bound = "one of";
+  for (const std::string& word : allowed) bound += " " + word;
+  refuse(name, value, bound);
+}
+
+}  // namespace
+
+SimParameters read_parameters(prf_parameters::PrivateParameters values) {
+  SimParameters result;
+  result.world.motion = one_of("motion", values.text("motion"), PlatformMotion::preset_names());
+  result.world.gait = one_of("gait", values.text("gait"), World::gait_names());
+  const int seed = values.integer("seed");
+  require_within("seed", seed, 0, 2147483647);
+  result.world.seed = static_cast<std::uint64_t>(seed);
+  result.world.arm_mode =
+      one_of("arm_mode", values.text("arm_mode"), {"servo", "compliant"}) == "servo"
+          ? ArmMode::kServo
+          : ArmMode::kCompliant;
+  const std::vector<double> start = values.numbers("initial_positions", 7);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    require_within("initial_positions[" + std::to_string(i) + "]", start[i], -2.0 * M_PI,
+                   2.0 * M_PI);
+    result.world.arm_start[static_cast<Eigen::Index>(i)] = start[i];
+  }
+  result.lockstep = values.flag("lockstep");
+  result.paused = values.flag("paused");
+  result.answer_timeout = values.number("answer_timeout");
+  require_within("answer_timeout", result.answer_timeout, 0.1, 3600.0);
+  result.real_time_factor = values.number("real_time_factor");
+  require_within("real_time_factor", result.real_time_factor, 0.0, 1000.0);
+  result.time_limit = values.number("time_limit");
+  require_within("time_limit", result.time_limit, 0.01, 86400.0);
+  result.end_delay = values.number("end_delay");
+  require_within("end_delay", result.end_delay, 0.0, 60.0);
+  result.camera_noise = values.number("camera_noise");
+  require_within("camera_noise", result.camera_noise, 0.0, 100.0);
+  result.camera.latency = values.number("camera_latency");
+  result.camera.exposure = values.number("camera_exposure");
+  result.camera.validate();
+  values.refuse_unknown();
+  result.world.validate();
+  return result;
+}
+
+}  // namespace platform_sim

@@ -1,0 +1,238 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The simulator node against a stand-in for the framework."""
+import math
+import os
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from std_srvs.srv import Trigger
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from fake_framework import ARM, NODE, FakeFramework, Simulator, config  # noqa: E402
+
+SHORT = {"time_limit": 0.5, "answer_timeout": 5.0}
+
+
+class LockstepTest(unittest.TestCase):
+    def test_publishes_every_topic_with_the_stamps_of_the_clock(self):
+        with FakeFramework() as peer:
+            code, output = Simulator(time_limit=1.0).wait()
+            time.sleep(0.5)
+        self.assertEqual(code, 0, output)
+        ticks = list(range(10, 1001, 10))
+        for name in ("joint_states", "ground_truth/platform", "ground_truth/base",
+                     "ground_truth/tag", "ground_truth/camera", "ground_truth/end_effector",
+                     "ground_truth/contacts"):
+            self.assertEqual(peer.stamps_ms(name), ticks, name)
+        self.assertEqual([round(m.clock.to_sec() * 1000) for m in peer.messages["/clock"]], ticks)
+        frames = [10 + round(k * 1000 / 30) for k in range(29)]  # up to 1 s less the latency
+        self.assertEqual(peer.stamps_ms("camera/image_raw"), frames)
+        self.assertEqual(peer.stamps_ms("camera/camera_info"), frames)
+        for name, frame in {"ground_truth/platform": "world", "ground_truth/tag": "world",
+                            "ground_truth/contacts": "world",
+                            "camera/image_raw": "camera_optical_frame"}.items():
+            self.assertEqual({m.header.frame_id for m in peer.messages[name]}, {frame})
+        self.assertIn("real-time factor", output)
+
+    def test_describes_image_and_joints(self):
+        with FakeFramework() as peer:
+            code, output = Simulator(**SHORT).wait()
+        self.assertEqual(code, 0, output)
+        image, info = peer.messages["camera/image_raw"][0], peer.messages["camera/camera_info"][0]
+        self.assertEqual((image.width, image.height, image.encoding), (640, 480, "mono8"))
+        self.assertEqual(len(image.data), 640 * 480)
+        self.assertGreater(len(set(image.data)), 50)
+        self.assertEqual(info.K, (615.0, 0.0, 320.0, 0.0, 615.0, 240.0, 0.0, 0.0, 1.0))
+        joints = peer.messages["joint_states"][-1]
+        self.assertEqual(len(joints.name), 19)
+        self.assertEqual(joints.name[12:], ARM)
+        for values in (joints.position, joints.velocity, joints.effort):
+            self.assertEqual(len(values), 19)
+            self.assertTrue(all(math.isfinite(value) for value in values))
+
+    def test_moves_the_arm_as_commanded(self):
+        target = list(config()["initial_positions"])
+        target[6] += 0.1
+        with FakeFramework(positions=target) as peer:
+            code, output = Simulator(**{**SHORT, "time_limit": 1.0}).wait()
+        self.assertEqual(code, 0, output)
+        for index in range(7):
+            self.assertAlmostEqual(peer.messages["joint_states"][-1].position[12 + index],
+                                   target[index], delta=0.005)
+
+    def test_repeats_a_run_to_the_last_bit(self):
+        digests = []
+        for seed in (3, 3, 4):
+            with FakeFramework() as peer:
+                code, output = Simulator(motion="light", seed=seed, **SHORT).wait()
+                time.sleep(0.5)
+            self.assertEqual(code, 0, output)
+            digests.append({name: value.hexdigest() for name, value in peer.digest.items()})
+        self.assertEqual(digests[0], digests[1])
+        self.assertNotEqual(digests[0]["camera/image_raw"], digests[2]["camera/image_raw"])
+
+    def test_ends_a_while_after_the_skill_is_done(self):
+        with FakeFramework(done_at=0.2) as peer:
+            code, output = Simulator(end_delay=0.3).wait()
+            time.sleep(0.5)
+        self.assertEqual(code, 0, output)
+        self.assertEqual(peer.stamps_ms("joint_states")[-1], 500)
+
+    def test_holds_the_arm_when_a_command_is_not_finite(self):
+        with FakeFramework(positions=[float("nan")] * 7) as peer:
+            code, output = Simulator(**SHORT).wait()
+        self.assertEqual(code, 0, output)
+        self.assertIn("joint_command refused, the arm holds: a position is not finite", output)
+        for start, position in zip(config()["initial_positions"],
+                                   peer.messages["joint_states"][-1].position[12:]):
+            self.assertAlmostEqual(position, start, delta=0.005)
+
+    def test_holds_the_arm_when_a_command_has_a_wrong_size(self):
+        with FakeFramework(positions=[0.0] * 6):
+            code, output = Simulator(**SHORT).wait()
+        self.assertEqual(code, 0, output)
+        self.assertIn("joint_command refused", output)
+
+    def test_lets_a_hand_guide_the_arm(self):
+        with FakeFramework(guide=True) as peer:
+            code, output = Simulator(arm_mode="compliant", **SHORT).wait()
+        self.assertEqual(code, 0, output)
+        heights = [m.pose.position.z for m in peer.messages["ground_truth/end_effector"]]
+        self.assertGreater(heights[-1], heights[0] + 0.002)
+
+    def test_runs_in_real_time_without_anyone(self):
+        begin = time.monotonic()
+        code, output = Simulator(lockstep=False, time_limit=1.5).wait()
+        self.assertEqual(code, 0, output)
+        self.assertGreaterEqual(time.monotonic() - begin, 1.5)
+
+    def test_keeps_below_the_cap_of_the_real_time_factor(self):
+        with FakeFramework():
+            begin = time.monotonic()
+            code, output = Simulator(real_time_factor=0.5, **SHORT).wait()
+        self.assertEqual(code, 0, output)
+        self.assertGreaterEqual(time.monotonic() - begin, 1.0)
+
+
+class SilenceTest(unittest.TestCase):
+    def test_names_the_topic_that_falls_silent(self):
+        for name in ("tag_detections", "target/forecast", "execution/progress",
+                     "execution/setpoint", "joint_command"):
+            # What depends on the mute topic is silent as well, as in the framework.
+            mute_from = 0.2
+            with FakeFramework(mute=name, mute_from=mute_from) as peer:
+                if name != "joint_command":
+                    peer.publishers["joint_command"] = MutedFrom(
+                        peer.publishers["joint_command"], mute_from + 0.08)
+                code, output = Simulator(answer_timeout=2.0).wait()
+            self.assertEqual(code, 3, output)
+            self.assertIn(f"{name} is silent", output)
+
+    def test_names_the_trajectory_that_the_decision_waits_for(self):
+        with FakeFramework(forecast=True, mute="execution/progress", mute_from=0.11) as peer:
+            code, output = Simulator(answer_timeout=2.0).wait()
+        self.assertEqual(code, 3, output)
+        self.assertIn("skill/trajectory is silent", output)
+        self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
+
+    def test_names_what_is_missing_at_the_start(self):
+        with FakeFramework(absent=["skill/trajectory"]) as peer:
+            code, output = Simulator(answer_timeout=2.0).wait()
+        self.assertEqual(code, 3, output)
+        self.assertIn("without publisher: /skill/trajectory;", output)
+        self.assertEqual(peer.messages["joint_states"], [])
+
+    def test_names_everything_when_it_is_alone(self):
+        code, output = Simulator(answer_timeout=1.0).wait()
+        self.assertEqual(code, 3, output)
+        for name in ("/joint_states", "/camera/image_raw", "/joint_command", "/execution/progress"):
+            self.assertIn(name, output)
+
+
+class StartTest(unittest.TestCase):
+    def test_stays_silent_until_it_is_started(self):
+        with FakeFramework() as peer:
+            simulator = Simulator(paused=True, **SHORT)
+            rospy.wait_for_service(NODE + "/start", timeout=20)
+            time.sleep(1.5)
+            self.assertEqual([name for name, log in peer.messages.items() if log], [])
+            self.assertTrue(rospy.ServiceProxy(NODE + "/start", Trigger)().success)
+            code, output = simulator.wait()
+        self.assertEqual(code, 0, output)
+        self.assertTrue(peer.messages["joint_states"])
+
+    def test_ends_promptly_when_interrupted(self):
+        for changes, peer in (({"paused": True}, False), ({"answer_timeout": 60.0}, False),
+                              ({"time_limit": 1000.0}, True)):
+            framework = FakeFramework() if peer else None
+            simulator = Simulator(**changes)
+            time.sleep(3.0)
+            simulator.interrupt()
+            begin = time.monotonic()
+            code, output = simulator.wait(20.0)
+            if framework:
+                framework.close()
+            self.assertEqual(code, 0, output)
+            self.assertLess(time.monotonic() - begin, 3.0)
+
+
+class ParameterTest(unittest.TestCase):
+    CATALOGUE = [
+        ("motion", "wild"), ("motion", 3), ("gait", "gallop"), ("seed", -1), ("seed", 1.5),
+        ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
+        ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
+        ("lockstep", "yes"), ("paused", 1), ("answer_timeout", 0.0),
+        ("answer_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
+        ("time_limit", float("nan")), ("end_delay", -1.0), ("camera_noise", -4.0),
+        ("camera_latency", 0.6), ("camera_exposure", 0.1), ("no_such_parameter", 1),
+    ]
+
+    def test_refuses_bad_values_by_name(self):
+        for name, value in self.CATALOGUE:
+            code, output = Simulator(**{name: value}).wait()
+            self.assertEqual(code, 2, f"{name} = {value}: {output}")
+            self.assertIn(name, output)
+            self.assertEqual(output.count("FATAL"), 1, output)
+
+    def test_requires_every_parameter(self):
+        for name in config():
+            code, output = Simulator(**{name: None}).wait()
+            self.assertEqual(code, 2, f"{name}: {output}")
+            self.assertIn(name, output)
+
+    def test_requires_a_robot(self):
+        urdf = rospy.get_param("robot_description")
+        try:
+            for bad in ("", "<robot", "<robot name='none'/>"):
+                rospy.set_param("robot_description", bad)
+                code, output = Simulator().wait()
+                self.assertEqual(code, 2, output)
+            rospy.delete_param("robot_description")
+            code, output = Simulator().wait()
+            self.assertEqual(code, 2, output)
+            self.assertIn("robot_description", output)
+        finally:
+            rospy.set_param("robot_description", urdf)
+
+
+class MutedFrom:
+    """A publisher that says nothing from some stamp on."""
+
+    def __init__(self, publisher, stamp):
+        self.publisher, self.stamp = publisher, stamp
+
+    def publish(self, message):
+        if message.header.stamp.to_sec() < self.stamp:
+            self.publisher.publish(message)
+
+    def unregister(self):
+        self.publisher.unregister()
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_platform_sim_node", disable_signals=True)
+    rostest.rosrun("platform_sim", "platform_sim_node", __name__)
