@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One sight of the target, made fit for a filter.
+//
+// Covariances are of (x y z) and of the rotation vector about the axes of the frame the pose is
+// given in: orientation_true = Exp(theta) orientation.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+namespace prf_predictor {
+
+struct TagMeasurement {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // unit
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d orientation_covariance = Eigen::Matrix3d::Zero();
+};
+
+// Used for a covariance that is zero, not finite, not symmetric or not positive definite.
+struct MeasurementDefaults {
+  double position_sigma = 0.0;     // m, > 0
+  double orientation_sigma = 0.0;  // rad, > 0
+};
+
+// Throws std::invalid_argument naming the parameter, its value and its bound.
+void validate(const MeasurementDefaults& defaults);
+
+enum class MeasurementStatus {
+  kGood,
+  kCovarianceReplaced,  // by the defaults
+  kNotFinite,           // dropped
+  kNoOrientation,       // dropped: the quaternion's norm is not 1 within 0.01
+};
+
+struct CheckedMeasurement {
+  MeasurementStatus status = MeasurementStatus::kNotFinite;
+  std::optional<TagMeasurement> measurement;  // nothing when dropped
+};
+
+[[nodiscard]] CheckedMeasurement check(const Eigen::Vector3d& position,
+                                       const Eigen::Quaterniond& orientation,
+                                       const Eigen::Matrix<double, 6, 6>& covariance,
+                                       const MeasurementDefaults& defaults);
+
+// The same sight in another frame: covariances turn with it.
+[[nodiscard]] TagMeasurement operator*(const Eigen::Isometry3d& source_in_target,
+                                       const TagMeasurement& measurement);
+
+}  // namespace prf_predictor

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Follows one target through sights, ghosts and gaps, and says where it will be.
+//
+// For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
+// if its Mahalanobis distance passes the gate, correct (the orientation has a gate of its own: a
+// flipped one is dropped, the position kept). A sight outside the gate starts a candidate, which
+// replaces the target once `reacquire_hits` sights in a row were consistent with it while none
+// passed the gate. Without accepted sights the target coasts with growing covariance; beyond
+// `lost_after` it is lost, its belief stands still and only a candidate brings it back.
+//
+// Images may come twice or late: the states of the last second are kept, a late image is put in
+// its place and what follows is computed again. The result depends on stamps alone.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "prf_predictor/orientation_filter.hpp"
+#include "prf_predictor/tag_measurement.hpp"
+#include "prf_predictor/ukf.hpp"
+
+namespace prf_predictor {
+
+using Nanoseconds = std::int64_t;
+
+struct TrackerParams {
+  SigmaPointParams sigma_points;
+  VelocityDecay rotation;         // of the angular velocity
+  double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
+  int reacquire_hits = 0;         // >= 2
+  double coast_after = 0.0;       // s without accepted sight, > 0
+  double lost_after = 0.0;        // the same, > coast_after
+};
+
+// Throws std::invalid_argument naming the parameter, its value and its bound.
+void validate(const TrackerParams& params);
+
+enum class TrackStatus { kNoTarget, kTracking, kCoasting, kLost };
+
+struct Belief {
+  Gaussian motion;
+  OrientationBelief orientation;
+};
+
+// The track right after one image.
+struct TrackState {
+  Nanoseconds stamp = 0;
+  TrackStatus status = TrackStatus::kNoTarget;
+  std::optional<Belief> belief;
+  Nanoseconds last_accepted = 0;
+
+  struct Candidate {
+    Belief belief;
+    Nanoseconds stamp = 0;  // of its latest sight
+    int hits = 0;
+  };
+  std::optional<Candidate> candidate;
+
+  bool measured = false;  // this image gave a sight that passed the gate
+  double nis = 0.0;       // of the nearest sight's position, accepted or not
+  bool gated = false;     // sights there were, none passed
+  bool orientation_gated = false;
+  bool reacquired = false;
+  bool reinitialised = false;  // the belief was no longer finite and was dropped
+};
+
+enum class Arrival { kInOrder, kDuplicate, kReplayed, kTooOld, kNewRun };
+
+struct Prediction {
+  double horizon = 0.0;  // s
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 6, 6> covariance =
+      Eigen::Matrix<double, 6, 6>::Zero();  // position, velocity
+};
+
+class TargetTracker {
+ public:
+  static constexpr Nanoseconds kHistory = 1'000'000'000;
+
+  TargetTracker(const TrackerParams& params, std::shared_ptr<const MotionModel> model);
+
+  struct Answer {
+    Arrival arrival = Arrival::kInOrder;
+    TrackState state;  // at the image's stamp
+  };
+
+  // `sights` are all of the target in this image, in the planning frame.
+  Answer process(Nanoseconds stamp, const std::vector<TagMeasurement>& sights);
+
+  // Empty when there is no belief.
+  [[nodiscard]] std::vector<Prediction> forecast(const TrackState& state,
+                                                 const std::vector<double>& horizons) const;
+
+ private:
+  struct Entry {
+    std::vector<TagMeasurement> sights;
+    TrackState state;
+  };
+
+  [[nodiscard]] TrackState step(const TrackState& before, Nanoseconds stamp,
+                                const std::vector<TagMeasurement>& sights) const;
+  [[nodiscard]] Belief begin(const TagMeasurement& sight) const;
+  [[nodiscard]] Belief advanced(const Belief& belief, double dt) const;
+  [[nodiscard]] bool accept(TrackState& state, const std::vector<TagMeasurement>& sights) const;
+  void pursue_candidate(TrackState& state, const std::vector<TagMeasurement>& sights) const;
+  [[nodiscard]] bool correct_orientation(Belief& belief, const TagMeasurement& sight) const;
+  void settle_status(TrackState& state) const;
+
+  TrackerParams params_;
+  std::shared_ptr<const MotionModel> model_;
+  double gate_;
+  std::deque<Entry> history_;
+};
+
+}  // namespace prf_predictor

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of target_predictor_node, documented in config/target_predictor.yaml.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "parameters.hpp"
+#include "prf_predictor/target_tracker.hpp"
+#include "require.hpp"
+
+namespace prf_predictor {
+
+struct NodeParams {
+  std::string planning_frame;
+  int tag_id = 0;
+  std::vector<double> horizons;
+  double tf_wait = 0.0;
+  VelocityDecay motion;
+  MeasurementDefaults defaults;
+  TrackerParams tracker;
+};
+
+inline SigmaPointParams to_sigma_points(const std::string& name) {
+  require(name == "textbook" || name == "paper", "sigma_points", name, "textbook or paper");
+  return name == "paper" ? SigmaPointParams::paper() : SigmaPointParams::textbook();
+}
+
+inline void validate(const NodeParams& params) {
+  require(!params.planning_frame.empty(), "planning_frame", "\"\"", "a frame's name");
+  require(params.tag_id >= 0, "tag_id", params.tag_id, ">= 0");
+  require(!params.horizons.empty() && params.horizons.front() == 0, "horizons",
+          params.horizons.empty() ? "[]" : std::to_string(params.horizons.front()) + " at first",
+          "a list that starts with 0 s");
+  for (std::size_t i = 1; i < params.horizons.size(); ++i) {
+    require(params.horizons[i] > params.horizons[i - 1] && params.horizons[i] <= 60, "horizons",
+            params.horizons[i], "strictly rising and <= 60 s");
+  }
+  require(params.tf_wait >= 0 && params.tf_wait <= 10, "tf_wait", params.tf_wait, "0 .. 10 s");
+  validate(params.motion, "acceleration_density");
+  validate(params.defaults);
+  validate(params.tracker);
+}
+
+inline NodeParams load(const ros::NodeHandle& private_node) {
+  Parameters parameters(private_node);
+  NodeParams params;
+  params.planning_frame = parameters.text("planning_frame");
+  params.tag_id = parameters.integer("tag_id");
+  params.horizons = parameters.numbers("horizons");
+  params.tf_wait = parameters.number("tf_wait");
+  const double time_constant = parameters.number("velocity_time_constant");
+  params.motion = {parameters.number("acceleration_density"), time_constant};
+  params.defaults = {parameters.number("position_sigma"), parameters.number("orientation_sigma")};
+  params.tracker.sigma_points = to_sigma_points(parameters.text("sigma_points"));
+  params.tracker.rotation = {parameters.number("angular_acceleration_density"), time_constant};
+  params.tracker.gate_probability = parameters.number("gate_probability");
+  params.tracker.reacquire_hits = parameters.integer("reacquire_hits");
+  params.tracker.coast_after = parameters.number("coast_after");
+  params.tracker.lost_after = parameters.number("lost_after");
+  parameters.refuse_unknown();
+  validate(params);
+  return params;
+}
+
+}  // namespace prf_predictor

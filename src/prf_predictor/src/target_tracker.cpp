@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/target_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "require.hpp"
+
+namespace prf_predictor {
+namespace {
+
+double seconds(Nanoseconds duration) { return 1e-9 * static_cast<double>(duration); }
+
+bool is_finite(const Belief& belief) {
+  return is_finite(belief.motion) && belief.orientation.orientation.coeffs().allFinite() &&
+         belief.orientation.rate.allFinite() && belief.orientation.covariance.allFinite();
+}
+
+struct Nearest {
+  const TagMeasurement* sight = nullptr;
+  Innovation innovation;
+};
+
+Nearest nearest_to(const Gaussian& belief, const std::vector<TagMeasurement>& sights,
+                   const SigmaPointParams& params) {
+  Nearest nearest;
+  nearest.innovation.nis = std::numeric_limits<double>::infinity();
+  for (const TagMeasurement& sight : sights) {
+    Innovation innovation = innovate(belief, sight.position, sight.position_covariance, params);
+    if (innovation.nis < nearest.innovation.nis) nearest = {&sight, std::move(innovation)};
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void validate(const TrackerParams& params) {
+  validate(params.sigma_points);
+  validate(params.rotation, "angular_acceleration_density");
+  require(params.gate_probability > 0.5 && params.gate_probability < 1, "gate_probability",
+          params.gate_probability, "> 0.5 and < 1");
+  require(params.reacquire_hits >= 2, "reacquire_hits", params.reacquire_hits, ">= 2");
+  require(params.coast_after > 0 && std::isfinite(params.coast_after), "coast_after",
+          params.coast_after, "finite and > 0 s");
+  require(params.lost_after > params.coast_after && params.lost_after <= 3600, "lost_after",
+          params.lost_after, "> coast_after and <= 3600 s");
+}
+
+TargetTracker::TargetTracker(const TrackerParams& params, std::shared_ptr<const MotionModel> model)
+    : params_(params), model_(std::move(model)) {
+  validate(params);
+  require(model_ != nullptr, "model", "null", "given");
+  gate_ = chi_square_quantile_3(params.gate_probability);
+}
+
+TargetTracker::Answer TargetTracker::process(Nanoseconds stamp,
+                                             const std::vector<TagMeasurement>& sights) {
+  Answer answer;
+  if (!history_.empty() && stamp < history_.back().state.stamp - kHistory) {
+    history_.clear();
+    answer.arrival = Arrival::kNewRun;
+  }
+  auto after = std::lower_bound(history_.begin(), history_.end(), stamp,
+                                [](const Entry& e, Nanoseconds t) { return e.state.stamp < t; });
+  if (after != history_.end() && after->state.stamp == stamp) {
+    return {Arrival::kDuplicate, after->state};
+  }
+  if (after == history_.begin() && !history_.empty()) {
+    answer.arrival = Arrival::kTooOld;
+    answer.state.stamp = stamp;
+    return answer;
+  }
+  if (after != history_.end()) answer.arrival = Arrival::kReplayed;
+
+  after = history_.insert(after, {sights, {}});
+  const auto position = after - history_.begin();
+  for (auto entry = after; entry != history_.end(); ++entry) {
+    const TrackState before = entry == history_.begin() ? TrackState{} : (entry - 1)->state;
+    const Nanoseconds own_stamp = entry == after ? stamp : entry->state.stamp;
+    entry->state = step(before, own_stamp, entry->sights);
+  }
+  answer.state = history_[static_cast<std::size_t>(position)].state;
+  while (history_.front().state.stamp < history_.back().state.stamp - kHistory) {
+    history_.pop_front();
+  }
+  return answer;
+}
+
+TrackState TargetTracker::step(const TrackState& before, Nanoseconds stamp,
+                               const std::vector<TagMeasurement>& sights) const {
+  TrackState state;
+  state.stamp = stamp;
+  state.status = before.status;
+  state.belief = before.belief;
+  state.last_accepted = before.last_accepted;
+  state.candidate = before.candidate;
+
+  const bool is_lost = seconds(stamp - state.last_accepted) > params_.lost_after;
+  if (state.belief && !is_lost) {
+    state.belief = advanced(*state.belief, seconds(stamp - before.stamp));
+    if (!is_finite(*state.belief)) {
+      state.belief.reset();
+      state.reinitialised = true;
+    }
+  }
+  if (!state.belief && !sights.empty()) {
+    state.belief = begin(sights.front());
+    state.last_accepted = stamp;
+    state.measured = true;
+  } else if (state.belief && !sights.empty()) {
+    if (!is_lost && accept(state, sights)) {
+      state.candidate.reset();
+    } else {
+      state.gated = true;
+      pursue_candidate(state, sights);
+    }
+  }
+  settle_status(state);
+  return state;
+}
+
+Belief TargetTracker::begin(const TagMeasurement& sight) const {
+  return {initial_belief(*model_, sight.position, sight.position_covariance),
+          initial_orientation(params_.rotation, sight.orientation, sight.orientation_covariance)};
+}
+
+Belief TargetTracker::advanced(const Belief& belief, double dt) const {
+  return {predict(belief.motion, *model_, dt, params_.sigma_points),
+          predict(belief.orientation, params_.rotation, dt)};
+}
+
+bool TargetTracker::accept(TrackState& state, const std::vector<TagMeasurement>& sights) const {
+  const Nearest nearest = nearest_to(state.belief->motion, sights, params_.sigma_points);
+  if (nearest.sight == nullptr) return false;
+  state.nis = nearest.innovation.nis;
+  if (!(state.nis <= gate_)) return false;
+  state.belief->motion = correct(state.belief->motion, nearest.innovation);
+  state.orientation_gated = !correct_orientation(*state.belief, *nearest.sight);
+  state.last_accepted = state.stamp;
+  state.measured = true;
+  return true;
+}
+
+void TargetTracker::pursue_candidate(TrackState& state,
+                                     const std::vector<TagMeasurement>& sights) const {
+  auto& candidate = state.candidate;
+  if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
+  if (candidate) {
+    candidate->belief = advanced(candidate->belief, seconds(state.stamp - candidate->stamp));
+    const Nearest nearest = nearest_to(candidate->belief.motion, sights, params_.sigma_points);
+    if (nearest.sight != nullptr && nearest.innovation.nis <= gate_) {
+      candidate->belief.motion = correct(candidate->belief.motion, nearest.innovation);
+      (void)correct_orientation(candidate->belief, *nearest.sight);
+      candidate->stamp = state.stamp;
+      ++candidate->hits;
+    } else {
+      candidate.reset();
+    }
+  }
+  if (!candidate) candidate = TrackState::Candidate{begin(sights.front()), state.stamp, 1};
+  if (candidate->hits < params_.reacquire_hits) return;
+
+  state.belief = candidate->belief;
+  state.last_accepted = state.stamp;
+  state.measured = true;
+  state.gated = false;
+  state.reacquired = true;
+  candidate.reset();
+}
+
+bool TargetTracker::correct_orientation(Belief& belief, const TagMeasurement& sight) const {
+  const auto innovation =
+      innovate(belief.orientation, sight.orientation, sight.orientation_covariance);
+  if (!(innovation.nis <= gate_)) return false;
+  belief.orientation = correct(belief.orientation, innovation);
+  return true;
+}
+
+void TargetTracker::settle_status(TrackState& state) const {
+  const double gap = seconds(state.stamp - state.last_accepted);
+  if (!state.belief) {
+    state.status = TrackStatus::kNoTarget;
+  } else if (gap > params_.lost_after) {
+    state.status = TrackStatus::kLost;
+  } else {
+    state.status = gap > params_.coast_after ? TrackStatus::kCoasting : TrackStatus::kTracking;
+  }
+}
+
+std::vector<Prediction> TargetTracker::forecast(const TrackState& state,
+                                                const std::vector<double>& horizons) const {
+  std::vector<Prediction> predictions;
+  if (!state.belief) return predictions;
+  for (const double horizon : horizons) {
+    const Belief ahead = advanced(*state.belief, horizon);
+    predictions.push_back({horizon, ahead.motion.mean.head<3>(), ahead.orientation.orientation,
+                           ahead.motion.mean.segment<3>(3), ahead.orientation.rate,
+                           ahead.motion.covariance.topLeftCorner<6, 6>()});
+  }
+  return predictions;
+}
+
+}  // namespace prf_predictor
