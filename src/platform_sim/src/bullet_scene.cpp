@@ -2,11 +2,11 @@
 #include "bullet_scene.hpp"
 
 #include "eigen_bullet.hpp"
+#include "gravity.hpp"
 
 namespace platform_sim {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s2
 constexpr int kSolverIterations = 20;
 
 const std::string& shape_name(const btCollisionObject& object, int child) {

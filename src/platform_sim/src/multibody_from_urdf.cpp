@@ -46,6 +46,7 @@ RobotModel::RobotModel(BulletScene& scene, const std::string& urdf_xml, Base bas
   }
   scene_.world().addMultiBody(multibody_.get());
   add_position_limits();
+  set_base_pose(Eigen::Isometry3d::Identity());
   update_poses();
 }
 

@@ -3,6 +3,8 @@
 
 #include <Eigen/QR>
 
+#include "gravity.hpp"
+
 namespace platform_sim {
 namespace {
 
@@ -36,32 +38,25 @@ Stance find_stance(const RigidTree& robot) {
   return stance;
 }
 
-// Balance: sum f_i = weight, sum r_i x f_i = r_com x weight, f_i = f_i z; then the virtual work of
-// toe forces and of the legs' own weight gives the torques: tau = -J^T f - tau_gravity.
-LegVector standing_torques(const RobotModel& robot, const Stance& stance) {
-  const Eigen::Vector3d weight = robot.mass() * robot.gravity();
-  const Eigen::Isometry3d base = robot.frame("base_link").pose;
-  const Eigen::Vector3d centre = base.inverse() * robot.centre_of_mass();
+// Balance: sum f_i = W, sum r_i x f_i = r_com x W with f_i = f_i z. Virtual work of the toes'
+// forces and of the legs' own weight gives tau = tau_weight - J^T f.
+LegVector standing_torques(const BodyModel& body, const Stance& stance) {
+  const Eigen::Vector3d& centre = body.centre_of_mass_in_base;
   Eigen::Matrix<double, 3, 4> balance;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d& toe = stance.toes_in_base[i];
-    balance.col(static_cast<Eigen::Index>(i)) << 1.0, toe.x() - centre.x(), toe.y() - centre.y();
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    const Eigen::Vector3d& toe = stance.toes_in_base[leg];
+    balance.col(static_cast<Eigen::Index>(leg)) << 1.0, toe.x() - centre.x(), toe.y() - centre.y();
   }
   const Eigen::Vector4d loads =
-      balance.completeOrthogonalDecomposition().solve(Eigen::Vector3d(weight.norm(), 0.0, 0.0));
+      balance.completeOrthogonalDecomposition().solve(Eigen::Vector3d(body.weight, 0.0, 0.0));
 
-  const Eigen::VectorXd gravity = robot.gravity_torques();
-  const auto names = leg_joint_names();
   LegVector torques;
   for (Eigen::Index leg = 0; leg < 4; ++leg) {
-    const auto index = static_cast<std::size_t>(leg);
+    const LegModel& model = stance.legs[static_cast<std::size_t>(leg)];
     const Eigen::Vector3d angles = stance.posture.segment<3>(3 * leg);
-    const Eigen::Vector3d force = -loads[leg] * weight.normalized();
-    torques.segment<3>(3 * leg) = -stance.legs[index].jacobian(angles).transpose() * force;
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const int body = robot.joint(names[i]).body;
-    torques[static_cast<Eigen::Index>(i)] -= gravity[body - 1];
+    torques.segment<3>(3 * leg) =
+        model.weight_torques(angles, -kGravity * Eigen::Vector3d::UnitZ()) -
+        model.jacobian(angles).transpose() * (loads[leg] * Eigen::Vector3d::UnitZ());
   }
   return torques;
 }

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "leg_kinematics.hpp"
-#include "multibody_from_urdf.hpp"
+#include "leg_model.hpp"
 #include "platform_sim/leg_controller.hpp"
 
 namespace platform_sim {
@@ -18,7 +17,7 @@ constexpr std::array<const char*, 4> kLegNames{"fl", "fr", "rl", "rr"};
 
 /// The measured standing posture of a Vision 60: toes at (+-0.31, +-0.17, -0.506) m in base_link.
 struct Stance {
-  std::vector<LegKinematics> legs;              ///< in the order of kLegNames
+  std::vector<LegModel> legs;                   ///< in the order of kLegNames
   std::array<Eigen::Vector3d, 4> toes_in_base;  ///< m
   LegVector posture;                            ///< rad
 };
@@ -26,8 +25,14 @@ struct Stance {
 /// Throws std::invalid_argument if the robot has no such legs or they cannot reach.
 [[nodiscard]] Stance find_stance(const RigidTree& robot);
 
-/// Torques, Nm, that carry the robot at rest in its present posture, with vertical forces of
-/// least sum of squares at the toes. The deck is level.
-[[nodiscard]] LegVector standing_torques(const RobotModel& robot, const Stance& stance);
+/// What the legs carry.
+struct BodyModel {
+  double weight = 0.0;                                               ///< N, of the whole robot
+  Eigen::Vector3d centre_of_mass_in_base = Eigen::Vector3d::Zero();  ///< m, of the whole robot
+};
+
+/// Torques, Nm, that carry the robot at rest in its stance on a level deck, with vertical forces
+/// of least sum of squares at the toes.
+[[nodiscard]] LegVector standing_torques(const BodyModel& body, const Stance& stance);
 
 }  // namespace platform_sim

@@ -5,7 +5,7 @@ namespace platform_sim {
 namespace {
 
 constexpr double kStiffness = 600.0;  // Nm/rad
-constexpr double kDamping = 12.0;     // Nm s/rad
+constexpr double kDamping = 30.0;     // Nm s/rad
 
 }  // namespace
 

@@ -7,14 +7,14 @@
 #include <stdexcept>
 
 #include "arm_servo.hpp"
+#include "gaits.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "stance.hpp"
-#include "stand_controller.hpp"
 
 namespace platform_sim {
 namespace {
 
-constexpr double kSettlingTime = 3.0;            // s
+constexpr double kSettlingTime = 2.0;            // s
 const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);  // m
 constexpr double kFallenHeight = 0.30;           // m, base over the deck
 constexpr double kFallenTilt = 0.7;              // rad
@@ -80,10 +80,7 @@ void require_between(const std::string& name, double value, double low, double h
 
 void WorldConfig::validate() const {
   [[maybe_unused]] const PlatformMotion known_motion(motion);
-  const std::vector<std::string>& gaits = World::gait_names();
-  if (std::find(gaits.begin(), gaits.end(), gait) == gaits.end()) {
-    throw std::invalid_argument("gait is '" + gait + "', must be one of: stand");
-  }
+  require_gait(gait);
   require_between("friction", friction, 0.05, 2.0);
   require_between("base_start_x", base_start_x, -0.4, 0.2);
   require_between("servo_gain", servo_gain, 0.1, 200.0);
@@ -187,7 +184,7 @@ void World::Impl::place_robot(const WorldConfig& config) {
   base.translation() = Eigen::Vector3d(config.base_start_x, 0.0, height);
   robot_.set_base_pose(motion_.deck(0.0).pose * base);
   robot_.update_poses();
-  legs_ = std::make_unique<StandController>(stance.posture, standing_torques(robot_, stance));
+  legs_ = make_leg_controller(config.gait, robot_, stance, config.friction);
 }
 
 // The deck is at rest at times up to 0.
@@ -298,10 +295,7 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-const std::vector<std::string>& World::gait_names() {
-  static const std::vector<std::string> names{"stand"};
-  return names;
-}
+const std::vector<std::string>& World::gait_names() { return platform_sim::gait_names(); }
 
 void World::step() { impl_->step(); }
 double World::time() const { return impl_->time(); }

@@ -4,22 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <stdexcept>
+
+#include "robot_urdf.hpp"
 
 namespace platform_sim {
 namespace {
 
 const std::vector<std::string> kToes{"fl_toe", "fr_toe", "rl_toe", "rr_toe"};
-
-std::string robot_urdf() {
-  std::ifstream file(ROBOT_URDF_FILE);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 WorldConfig folded_arm() {
   WorldConfig config;
@@ -91,6 +84,26 @@ TEST(World, StandsThroughTwentySecondsOfHeavyMotionWithoutSlipping) {
   }
   EXPECT_FALSE(world.fallen());
   EXPECT_GT(world.platform().pose.translation().norm(), 1e-3);
+}
+
+TEST(World, StepsInPlaceThroughHeavyMotion) {
+  WorldConfig config = folded_arm();
+  config.motion = "heavy";
+  config.gait = "step";
+  World world(robot_urdf(), config);
+  const Eigen::Vector3d start = in_platform(world, "base_link");
+  std::vector<double> lift(kToes.size(), 0.0);
+  double farthest = 0.0;
+  for (int period = 0; period < 1000; ++period) {
+    run(world, 0.01);
+    farthest = std::max(farthest, (in_platform(world, "base_link") - start).norm());
+    for (std::size_t i = 0; i < kToes.size(); ++i) {
+      lift[i] = std::max(lift[i], in_platform(world, kToes[i]).z());
+    }
+  }
+  EXPECT_FALSE(world.fallen());
+  EXPECT_LT(farthest, 0.2);
+  for (double height : lift) EXPECT_GT(height, 0.05);
 }
 
 TEST(World, SlipsWhenTheDeckIsTooSmooth) {
