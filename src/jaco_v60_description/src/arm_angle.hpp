@@ -17,7 +17,8 @@ struct ArmAxes {
 };
 ArmAxes arm_axes(const Eigen::Vector3d& shoulder_to_wrist);
 
-// Directions of the upper arm for a given S -> W: cos(a) axis + sin(a) (cos phi zero + sin phi ninety).
+// Directions of the upper arm for a given S -> W: cos(a) axis + sin(a) (cos phi zero + sin phi
+// ninety).
 struct ElbowCircle {
   ArmAxes axes;
   Eigen::Vector3d shoulder_to_wrist;

@@ -121,7 +121,7 @@ JointVector LeastStep::self_motion() const {
 
 bool polish(const Eigen::Isometry3d& pose, JointVector* q) {
   constexpr int kIterations = 12;
-  constexpr double kGoal = 1e-12;      // aimed at, so that kPoseTolerance is met with room
+  constexpr double kGoal = 1e-12;       // aimed at, so that kPoseTolerance is met with room
   constexpr double kLargestStep = 0.3;  // [rad] in the norm of q
   for (int i = 0; i < kIterations; ++i) {
     const Frames frames = link_frames(*q);

@@ -120,8 +120,7 @@ Jacobian jacobian(const Frames& frames) {
   for (std::size_t i = 0; i < 7; ++i) {
     const Eigen::Vector3d axis = frames.rotation[i].col(2);
     const auto column = static_cast<Eigen::Index>(i);
-    result.col(column).head<3>() =
-        axis.cross(frames.end_effector.translation() - frames.origin[i]);
+    result.col(column).head<3>() = axis.cross(frames.end_effector.translation() - frames.origin[i]);
     result.col(column).tail<3>() = axis;
   }
   return result;

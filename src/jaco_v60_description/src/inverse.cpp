@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Choice among the solutions of a pose.
-//   cost(q) = sum_i w_i (q_i - seed_i)^2 + limit_weight sum_{2,4,6} max(0, 1 - d_i / limit_margin)^2
+//   cost(q) = sum_i w_i (q_i - seed_i)^2 + limit_weight sum_{2,4,6} max(0, 1 - d_i /
+//   limit_margin)^2
 // First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost.
 // It passes the shoulder's singularity, where the arm angle's branches exchange. If that does not
 // end close by within limits, the closed form is sampled on the feasible arcs of every branch.
@@ -100,8 +101,7 @@ bool descend(const Eigen::Isometry3d& pose, const Cost& cost, JointVector* q) {
     if (step.norm() > kLargestStep) step *= kLargestStep / step.norm();
     const JointVector moved = *q + step;
     const JointVector direction = least.self_motion();
-    const double downhill =
-        direction.dot(cost.descent(moved)) / cost.curvature(moved, direction);
+    const double downhill = direction.dot(cost.descent(moved)) / cost.curvature(moved, direction);
     const double length = limited_length(moved, direction, downhill);
     step += std::clamp(length, -kLargestStep, kLargestStep) * direction;
     *q += step;

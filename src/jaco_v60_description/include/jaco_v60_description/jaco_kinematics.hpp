@@ -55,7 +55,8 @@ struct IkOptions {
   // Distance to the seed is sum_i weight_i (q_i - seed_i)^2; the default measures time of travel,
   // relative to the slowest joints (36 deg/s against 48 deg/s).
   JointVector weight = (JointVector() << 1.0, 1.0, 1.0, 1.0, 0.5625, 0.5625, 0.5625).finished();
-  // Cost limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a limit.
+  // Cost limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a
+  // limit.
   double limit_margin = 0.3;    // [rad], > 0
   double limit_weight = 0.001;  // [rad^2], >= 0; small: continuity comes first
 
@@ -70,8 +71,8 @@ struct IkResult {
   double orientation_error;  // [rad] of q
 };
 
-// The solution within limits that is nearest to the seed (continuous joints in the seed's turn) and,
-// as a smaller part of the cost, away from limits. kSolved means errors below 1e-9.
+// The solution within limits that is nearest to the seed (continuous joints in the seed's turn)
+// and, as a smaller part of the cost, away from limits. kSolved means errors below 1e-9.
 [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
                                const IkOptions& options = IkOptions());
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// robot_state_publisher on the built model: tf agrees with the kinematics library, message by
+// message.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <string>
+
+#include "jaco_v60_description/jaco_kinematics.hpp"
+
+namespace jaco_v60_description {
+namespace {
+
+constexpr double kWait = 10.0;  // [s], for processes to start and messages to arrive
+
+sensor_msgs::JointState joint_states(const JointVector& q, const ros::Time& stamp) {
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  for (int i = 0; i < 7; ++i) {
+    message.name.push_back("j2s7s300_joint_" + std::to_string(i + 1));
+    message.position.push_back(q[i]);
+  }
+  for (const char* leg : {"fl", "fr", "rl", "rr"}) {
+    for (const char* joint : {"_abduction", "_hip", "_knee"}) {
+      message.name.push_back(std::string(leg) + joint);
+      message.position.push_back(0.5);
+    }
+  }
+  return message;
+}
+
+class Description : public testing::Test {
+ protected:
+  Description() : listener_(buffer_) {
+    publisher_ = node_.advertise<sensor_msgs::JointState>("joint_states", 100);
+    const ros::WallTime limit = ros::WallTime::now() + ros::WallDuration(kWait);
+    while (publisher_.getNumSubscribers() == 0 && ros::WallTime::now() < limit) {
+      ros::WallDuration(0.05).sleep();
+    }
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+};
+
+TEST_F(Description, PublishesTheHandOfEveryJointState) {
+  ASSERT_EQ(publisher_.getNumSubscribers(), 1u);
+  const ros::Time start = ros::Time::now();
+  JointVector q = JointVector::Constant(2.0);
+  for (int tick = 0; tick < 50; ++tick) {
+    const ros::Time stamp = start + ros::Duration(0.01 * tick);
+    q[0] = 0.02 * tick;
+    publisher_.publish(joint_states(q, stamp));
+    ASSERT_TRUE(buffer_.canTransform("j2s7s300_link_base", "j2s7s300_end_effector", stamp,
+                                     ros::Duration(kWait)))
+        << "tick " << tick;
+    const auto hand =
+        buffer_.lookupTransform("j2s7s300_link_base", "j2s7s300_end_effector", stamp).transform;
+    const Eigen::Vector3d expected = forward(q).translation();
+    ASSERT_NEAR(hand.translation.x, expected.x(), 1e-9);
+    ASSERT_NEAR(hand.translation.y, expected.y(), 1e-9);
+    ASSERT_NEAR(hand.translation.z, expected.z(), 1e-9);
+  }
+}
+
+TEST_F(Description, HasTheFixedFramesWithoutJointStates) {
+  EXPECT_TRUE(
+      buffer_.canTransform("base_link", "j2s7s300_link_base", ros::Time(0), ros::Duration(kWait)));
+  EXPECT_TRUE(buffer_.canTransform("j2s7s300_end_effector", "camera_optical_frame", ros::Time(0),
+                                   ros::Duration(kWait)));
+}
+
+}  // namespace
+}  // namespace jaco_v60_description
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "description_test");
+  return RUN_ALL_TESTS();
+}
