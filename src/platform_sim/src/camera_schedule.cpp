@@ -11,7 +11,7 @@ namespace platform_sim {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
-constexpr double kInstantSpacing = 2.0;  // ms
+constexpr double kInstantSpacing = 3.0;  // ms
 constexpr double kTolerance = 1e-6;      // ms, of decimal figures in seconds
 
 void require_within(const std::string& name, double value, double highest) {

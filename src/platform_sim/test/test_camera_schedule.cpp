@@ -38,7 +38,7 @@ TEST(CameraSchedule, SpreadsInstantsSymmetricallyOverTheExposure) {
     std::vector<std::int64_t> instants;
     const std::vector<Frame> frames = frames_until(schedule, 30, &instants);
     ASSERT_EQ(frames.size(), 1U);
-    EXPECT_EQ(static_cast<int>(instants.size()), std::max(1, (exposure_ms + 1) / 2));
+    EXPECT_EQ(static_cast<int>(instants.size()), std::max(1, (exposure_ms + 2) / 3));
     std::int64_t sum = 0;
     for (const std::int64_t instant : instants) {
       sum += instant - 10;

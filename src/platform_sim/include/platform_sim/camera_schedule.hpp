@@ -26,7 +26,7 @@ struct Frame {
 };
 
 /// 30 frames a second on the grid of 1 ms: frame k is stamped first_ms + round(1000 k / 30) and
-/// seen at instants spread evenly and symmetrically over its exposure, one for each 2 ms begun.
+/// seen at instants spread evenly and symmetrically over its exposure, one for each 3 ms begun.
 class CameraSchedule {
  public:
   CameraSchedule(const CameraTiming& timing, std::int64_t first_ms);
