@@ -44,7 +44,11 @@ void CameraTransforms::forget() {
 CameraTransforms::Lookup CameraTransforms::lookup(const std::string& camera_frame,
                                                   const ros::Time& stamp) const {
   Lookup result;
-  if (stamp.isZero()) return {Readiness::kNever, {}, "stamp 0 means no certain time to tf"};
+  if (stamp.isZero()) {
+    result.readiness = Readiness::kNever;
+    result.reason = "stamp 0 means the latest time to tf";
+    return result;
+  }
   try {
     result.camera_in_planning =
         tf2::transformToEigen(buffer_.lookupTransform(planning_frame_, camera_frame, stamp));

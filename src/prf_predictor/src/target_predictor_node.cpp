@@ -72,7 +72,11 @@ class TargetPredictorNode {
   }
 
   CameraTransforms::Lookup camera_at(const prf_msgs::TagDetectionArray& array) const {
-    if (array.detections.empty()) return {CameraTransforms::Readiness::kReady, {}, {}};
+    if (array.detections.empty()) {
+      CameraTransforms::Lookup not_needed;
+      not_needed.readiness = CameraTransforms::Readiness::kReady;
+      return not_needed;
+    }
     return transforms_.lookup(array.header.frame_id, array.header.stamp);
   }
 

@@ -1,4 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/target_tracker.hpp"
+
 #include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace prf_predictor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Nanoseconds kFrame = 33'000'000;
+constexpr double kFrameSeconds = 0.033;
+const std::vector<double> kHorizons{0, 0.1, 0.5, 1.0, 2.0};
+const Eigen::Vector3d kHome(0.9, 0.05, 0.3);
+
+TrackerParams good_params() {
+  TrackerParams params;
+  params.sigma_points = SigmaPointParams::textbook();
+  params.rotation = {0.03, 0.6};
+  params.gate_probability = 0.9999;
+  params.reacquire_hits = 5;
+  params.coast_after = 0.15;
+  params.lost_after = 1.0;
+  return params;
+}
+
+TargetTracker make_tracker(VelocityDecay motion = {0.03, 0.6}) {
+  return {good_params(), std::make_shared<DecayingVelocity>(motion)};
+}
+
+TagMeasurement sight_at(const Eigen::Vector3d& position,
+                        const Eigen::Vector3d& rotation = Eigen::Vector3d::Zero()) {
+  TagMeasurement sight;
+  sight.position = position;
+  sight.orientation = rotation_of(rotation);
+  sight.position_covariance = 1e-6 * Eigen::Matrix3d::Identity();
+  sight.orientation_covariance = 2.5e-5 * Eigen::Matrix3d::Identity();
+  return sight;
+}
+
+// Feeds `frames` images of a resting target, the last of which has the returned answer.
+TargetTracker::Answer rest(TargetTracker& tracker, int frames, Nanoseconds start = 0) {
+  TargetTracker::Answer answer;
+  for (int i = 0; i < frames; ++i) {
+    answer = tracker.process(start + i * kFrame, {sight_at(kHome)});
+  }
+  return answer;
+}
+
+bool same(const TrackState& a, const TrackState& b) {
+  return a.stamp == b.stamp && a.status == b.status && a.nis == b.nis && a.measured == b.measured &&
+         a.belief.has_value() == b.belief.has_value() &&
+         (!a.belief || (a.belief->motion.mean == b.belief->motion.mean &&
+                        a.belief->motion.covariance == b.belief->motion.covariance &&
+                        a.belief->orientation.orientation.coeffs() ==
+                            b.belief->orientation.orientation.coeffs()));
+}
+
+TEST(TargetTracker, KnowsNoTargetUntilOneIsSeen) {
+  auto tracker = make_tracker();
+  const auto blind = tracker.process(0, {});
+  EXPECT_EQ(blind.state.status, TrackStatus::kNoTarget);
+  EXPECT_TRUE(tracker.forecast(blind.state, kHorizons).empty());
+  const auto seen = tracker.process(kFrame, {sight_at(kHome)});
+  EXPECT_EQ(seen.state.status, TrackStatus::kTracking);
+  EXPECT_TRUE(seen.state.measured);
+  EXPECT_EQ(tracker.forecast(seen.state, kHorizons).size(), kHorizons.size());
+}
+
+TEST(TargetTracker, ForecastsAConstantVelocityTargetExactly) {
+  auto tracker = make_tracker({0.03, kInfinity});
+  const Eigen::Vector3d velocity(0.1, -0.2, 0.05);
+  const auto position = [&](double t) -> Eigen::Vector3d { return kHome + velocity * t; };
+  TargetTracker::Answer answer;
+  for (int i = 0; i < 400; ++i) {
+    answer = tracker.process(i * kFrame, {sight_at(position(i * kFrameSeconds))});
+  }
+  for (const auto& prediction : tracker.forecast(answer.state, kHorizons)) {
+    const Eigen::Vector3d truth = position(399 * kFrameSeconds + prediction.horizon);
+    EXPECT_LT((prediction.position - truth).norm(), 1e-9) << prediction.horizon;
+    EXPECT_LT((prediction.velocity - velocity).norm(), 1e-9);
+  }
+}
+
+TEST(TargetTracker, ForecastCovarianceIsPositiveDefiniteAndGrowsWithTheHorizon) {
+  auto tracker = make_tracker();
+  const auto answer = rest(tracker, 30);
+  double last = 0;
+  for (const auto& prediction : tracker.forecast(answer.state, kHorizons)) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(prediction.covariance);
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), 0);
+    EXPECT_GT(prediction.covariance(0, 0), last);
+    last = prediction.covariance(0, 0);
+  }
+}
+
+TEST(TargetTracker, CoastsWithGrowingCovarianceThenIsLostAndStandsStill) {
+  auto tracker = make_tracker();
+  double variance = rest(tracker, 30).state.belief->motion.covariance(0, 0);
+  const int last_seen = 29;
+  for (int i = 30; i < 80; ++i) {
+    const auto state = tracker.process(i * kFrame, {}).state;
+    const double gap = (i - last_seen) * kFrameSeconds;
+    const auto expected = gap > 1.0    ? TrackStatus::kLost
+                          : gap > 0.15 ? TrackStatus::kCoasting
+                                       : TrackStatus::kTracking;
+    ASSERT_EQ(state.status, expected) << gap;
+    ASSERT_FALSE(state.measured);
+    if (expected == TrackStatus::kLost) {
+      ASSERT_EQ(state.belief->motion.covariance(0, 0), variance);
+    } else {
+      ASSERT_GT(state.belief->motion.covariance(0, 0), variance);
+    }
+    variance = state.belief->motion.covariance(0, 0);
+  }
+}
+
+TEST(TargetTracker, IsLostAfterALeapOfTheClock) {
+  auto tracker = make_tracker();
+  rest(tracker, 30);
+  const auto state = tracker.process(3'600'000'000'000, {}).state;
+  EXPECT_EQ(state.status, TrackStatus::kLost);
+  EXPECT_TRUE(is_finite(state.belief->motion));
+}
+
+TEST(TargetTracker, GatesAGhostAndKeepsTheTarget) {
+  auto tracker = make_tracker();
+  rest(tracker, 30);
+  const Eigen::Vector3d ghost = kHome + Eigen::Vector3d(0, 0.5, 0);
+  const auto alone = tracker.process(30 * kFrame, {sight_at(ghost)}).state;
+  EXPECT_TRUE(alone.gated);
+  EXPECT_FALSE(alone.measured);
+  EXPECT_LT((alone.belief->motion.mean.head<3>() - kHome).norm(), 1e-3);
+  for (int i = 31; i < 60; ++i) {
+    const auto state = tracker.process(i * kFrame, {sight_at(ghost), sight_at(kHome)}).state;
+    ASSERT_TRUE(state.measured);
+    ASSERT_LT((state.belief->motion.mean.head<3>() - kHome).norm(), 1e-3);
+  }
+}
+
+TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
+  auto tracker = make_tracker();
+  rest(tracker, 30);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 30; i < 38; ++i) {
+    const Eigen::Vector3d anywhere =
+        kHome + Eigen::Vector3d(uniform(random), 1 + uniform(random), uniform(random));
+    const auto state = tracker.process(i * kFrame, {sight_at(anywhere)}).state;
+    ASSERT_FALSE(state.reacquired) << "scattered ghosts must not become the target";
+  }
+  const Eigen::Vector3d moved = kHome + Eigen::Vector3d(0, 0.5, 0);
+  for (int hit = 1; hit <= 5; ++hit) {
+    const auto state = tracker.process((37 + hit) * kFrame, {sight_at(moved)}).state;
+    ASSERT_EQ(state.reacquired, hit == 5);
+    ASSERT_EQ(state.measured, hit == 5);
+  }
+  const auto state = tracker.process(43 * kFrame, {}).state;
+  EXPECT_LT((state.belief->motion.mean.head<3>() - moved).norm(), 1e-3);
+}
+
+TEST(TargetTracker, BringsALostTargetBackAfterConsistentHits) {
+  auto tracker = make_tracker();
+  rest(tracker, 30);
+  const Nanoseconds later = 30 * kFrame + 5'000'000'000;
+  for (int hit = 1; hit <= 5; ++hit) {
+    const auto state = tracker.process(later + hit * kFrame, {sight_at(kHome)}).state;
+    ASSERT_EQ(state.status, hit == 5 ? TrackStatus::kTracking : TrackStatus::kLost);
+  }
+}
+
+TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
+  auto tracker = make_tracker();
+  rest(tracker, 60);
+  const Eigen::Vector3d moved = kHome + Eigen::Vector3d(0.001, 0, 0);
+  const auto state = tracker.process(60 * kFrame, {sight_at(moved, {0, 0.6, 0})}).state;
+  EXPECT_TRUE(state.measured);
+  EXPECT_TRUE(state.orientation_gated);
+  EXPECT_GT(state.belief->motion.mean.x(), kHome.x());
+  EXPECT_LT(rotation_vector(state.belief->orientation.orientation).norm(), 1e-3);
+}
+
+TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {
+  auto tracker = make_tracker();
+  auto reference = make_tracker();
+  const auto once = rest(tracker, 20);
+  rest(reference, 20);
+  const auto twice = tracker.process(19 * kFrame, {sight_at({5, 5, 5})});
+  EXPECT_EQ(twice.arrival, Arrival::kDuplicate);
+  EXPECT_TRUE(same(twice.state, once.state));
+  EXPECT_TRUE(
+      same(tracker.process(20 * kFrame, {}).state, reference.process(20 * kFrame, {}).state));
+}
+
+TEST(TargetTracker, ReplaysLateImagesSoThatTheOrderOfArrivalDoesNotMatter) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0, 1e-3);
+  std::vector<std::vector<TagMeasurement>> images;
+  for (int i = 0; i < 30; ++i) {
+    const double x = 0.1 * std::sin(2.4 * i * kFrameSeconds) + noise(random);
+    images.push_back(i % 7 == 3 ? std::vector<TagMeasurement>{}
+                                : std::vector{sight_at(kHome + Eigen::Vector3d(x, 0, 0))});
+  }
+  auto in_order = make_tracker();
+  auto shuffled = make_tracker();
+  TrackState last_in_order;
+  TrackState last_shuffled;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    last_in_order = in_order.process(static_cast<Nanoseconds>(i) * kFrame, images[i]).state;
+  }
+  std::vector<std::size_t> order(images.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin() + 1, order.end(), random);
+  order.erase(std::find(order.begin(), order.end(), images.size() - 1));
+  order.push_back(images.size() - 1);
+  for (const std::size_t i : order) {
+    last_shuffled = shuffled.process(static_cast<Nanoseconds>(i) * kFrame, images[i]).state;
+  }
+  EXPECT_TRUE(same(last_in_order, last_shuffled));
+}
+
+TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack) {
+  auto tracker = make_tracker();
+  const Nanoseconds start = 100'000'000'000;
+  const auto last = rest(tracker, 3, start);
+  const auto old = tracker.process(start - kFrame, {sight_at(kHome)});
+  EXPECT_EQ(old.arrival, Arrival::kTooOld);
+  EXPECT_EQ(old.state.status, TrackStatus::kNoTarget);
+  EXPECT_TRUE(same(tracker.process(last.state.stamp, {}).state, last.state));
+  const auto anew = tracker.process(start - 5'000'000'000, {});
+  EXPECT_EQ(anew.arrival, Arrival::kNewRun);
+  EXPECT_EQ(anew.state.status, TrackStatus::kNoTarget);
+}
+
+TEST(TargetTracker, StaysFiniteWithHalfOfTheImagesMissing) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> noise(0, 1e-3);
+  auto tracker = make_tracker();
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d truth =
+        kHome + Eigen::Vector3d(0.02, 0.1, 0.05) * std::sin(2.4 * i * kFrameSeconds);
+    std::vector<TagMeasurement> sights;
+    if (uniform(random) > 0.5) {
+      sights.push_back(sight_at(truth + Eigen::Vector3d(noise(random), noise(random), 0)));
+    }
+    const auto state = tracker.process(i * kFrame, sights).state;
+    if (!state.belief) continue;
+    ASSERT_TRUE(is_finite(state.belief->motion));
+    if (i > 60) worst = std::max(worst, (state.belief->motion.mean.head<3>() - truth).norm());
+  }
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
+  struct BadValue {
+    std::string name;
+    void (*spoil)(TrackerParams&);
+  };
+  const BadValue catalogue[] = {
+      {"alpha", [](TrackerParams& p) { p.sigma_points.alpha = 0; }},
+      {"angular_acceleration_density", [](TrackerParams& p) { p.rotation.spectral_density = 0; }},
+      {"velocity_time_constant", [](TrackerParams& p) { p.rotation.time_constant = NAN; }},
+      {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
+      {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},
+      {"coast_after", [](TrackerParams& p) { p.coast_after = NAN; }},
+      {"lost_after", [](TrackerParams& p) { p.lost_after = 0.1; }},
+  };
+  for (const auto& bad : catalogue) {
+    auto params = good_params();
+    bad.spoil(params);
+    try {
+      validate(params);
+      ADD_FAILURE() << bad.name << " was accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(bad.name + " = ", 0), 0u) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prf_predictor
+
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

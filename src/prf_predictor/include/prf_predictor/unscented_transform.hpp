@@ -18,7 +18,7 @@ struct SigmaPointParams {
   double kappa = 0.0;  // n + kappa > 0 for all n, so >= 0
 
   static SigmaPointParams paper() { return {1.0, 2e-6, 0.0}; }  // as the paper prints them
-  static SigmaPointParams textbook() { return {0.1, 2.0, 0.0}; }
+  static SigmaPointParams textbook() { return {0.5, 2.0, 0.0}; }
 };
 
 // Throws std::invalid_argument naming the parameter, its value and its bound.

@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""target_predictor_node from outside: every image is answered once, in order, the same way
+whatever the order in which detections and tf arrive; bad parameters are refused."""
+import io
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+import yaml
+from geometry_msgs.msg import TransformStamped
+from prf_msgs.msg import TagDetection, TagDetectionArray, TargetForecast
+from tf2_msgs.msg import TFMessage
+
+PACKAGE = "prf_predictor"
+BASE, ARM, CAMERA = "j2s7s300_link_base", "moving_arm", "camera_optical_frame"
+TF_PERIOD, FRAMES = 0.01, 12
+
+
+def transform(parent, child, stamp, xyz, yaw=0.0):
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id, message.header.stamp = parent, rospy.Time.from_sec(stamp)
+    message.transform.translation.x, message.transform.translation.y, \
+        message.transform.translation.z = xyz
+    message.transform.rotation.z = math.sin(yaw / 2)
+    message.transform.rotation.w = math.cos(yaw / 2)
+    return message
+
+
+def arm_tf(stamp):
+    """The camera's carrier sways and turns."""
+    phase = 2.0 * (stamp % 1000)
+    return TFMessage([transform(BASE, ARM, stamp, (0.1 * math.sin(phase), 0.0, 0.5),
+                                yaw=0.2 * math.cos(phase))])
+
+
+def detections(stamp, xyz=(0.0, 0.0, 0.5), tag_id=0, frame=CAMERA, count=1):
+    array = TagDetectionArray()
+    array.header.stamp, array.header.frame_id = rospy.Time.from_sec(stamp), frame
+    for _ in range(count):
+        detection = TagDetection(family="tag36h11", id=tag_id)
+        pose = detection.pose.pose
+        pose.position.x, pose.position.y, pose.position.z = xyz
+        pose.orientation.x = 1.0
+        detection.pose.covariance = list((1e-6 * np.eye(6)).flatten())
+        array.detections.append(detection)
+    return array
+
+
+def image_stamps(start):
+    return [start + round(k * 1000 / 30) / 1000 for k in range(FRAMES)]
+
+
+def content(message):
+    message.header.seq = 0
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+class TargetPredictorNode(unittest.TestCase):
+    run = 0
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("target_predictor_test")
+        cls.answers = []
+        cls.images = rospy.Publisher("tag_detections", TagDetectionArray, queue_size=100)
+        cls.tf = rospy.Publisher("/tf", TFMessage, queue_size=1000)
+        cls.tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        cls.subscriber = rospy.Subscriber("target/forecast", TargetForecast, cls.answers.append)
+        cls.tf_static.publish(TFMessage([transform(ARM, CAMERA, 1.0, (0.0, 0.07, -0.12))]))
+        cls.wait(lambda: all(p.get_num_connections()
+                             for p in (cls.images, cls.tf, cls.tf_static, cls.subscriber)))
+
+    @staticmethod
+    def wait(condition, seconds=20.0):
+        for _ in range(int(seconds / 0.01)):
+            if condition():
+                return
+            rospy.rostime.wallsleep(0.01)
+        raise AssertionError("waited in vain")
+
+    def answer(self, count):
+        self.wait(lambda: len(self.answers) >= count)
+        rospy.rostime.wallsleep(0.1)
+        self.assertEqual(len(self.answers), count, "exactly one answer for every image")
+        return self.answers[-1]
+
+    def setUp(self):
+        """Every test gets a run of its own, by stamps that go back far."""
+        self.begin_run()
+
+    def begin_run(self):
+        self.tf.publish(arm_tf(5000.0))
+        self.images.publish(detections(5000.0, count=0))
+        rospy.rostime.wallsleep(0.3)
+        self.answers.clear()
+
+    def send_tf(self, first, last):
+        for k in range(round((last - first) / TF_PERIOD) + 1):
+            self.tf.publish(arm_tf(first + k * TF_PERIOD))
+
+    def test_one_image_gives_one_forecast(self):
+        self.send_tf(100.0, 100.1)
+        self.images.publish(detections(100.033))
+        forecast = self.answer(1)
+        self.assertEqual(forecast.header.stamp, rospy.Time.from_sec(100.033))
+        self.assertEqual(forecast.header.frame_id, BASE)
+        self.assertEqual(forecast.status, TargetForecast.TRACKING)
+        self.assertTrue(forecast.measured)
+        self.assertEqual([p.horizon.to_sec() for p in forecast.predictions],
+                         [0.0, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0])
+        arm = [arm_tf(100.03).transforms[0], arm_tf(100.04).transforms[0]]
+        weight = (100.033 - 100.03) / TF_PERIOD
+        yaw = sum(w * 2 * math.atan2(t.transform.rotation.z, t.transform.rotation.w)
+                  for w, t in zip((1 - weight, weight), arm))
+        shift = sum(w * t.transform.translation.x for w, t in zip((1 - weight, weight), arm))
+        position = forecast.predictions[0].pose.position
+        self.assertAlmostEqual(position.x, shift - 0.07 * math.sin(yaw), delta=1e-5)
+        self.assertAlmostEqual(position.y, 0.07 * math.cos(yaw), delta=1e-5)
+        self.assertAlmostEqual(position.z, 0.5 - 0.12 + 0.5, delta=1e-9)
+        for prediction in forecast.predictions:
+            covariance = np.reshape(prediction.covariance, (6, 6))
+            self.assertGreater(np.linalg.eigvalsh(covariance).min(), 0.0)
+
+    def test_empty_image_needs_no_tf_and_gives_no_target(self):
+        self.images.publish(detections(100.0, count=0))
+        forecast = self.answer(1)
+        self.assertEqual(forecast.status, TargetForecast.NO_TARGET)
+        self.assertEqual(forecast.predictions, [])
+
+    def test_waits_for_tf_on_both_sides_of_the_stamp(self):
+        self.send_tf(100.0, 100.03)
+        self.images.publish(detections(100.033))
+        rospy.rostime.wallsleep(0.3)
+        self.assertEqual(self.answers, [])
+        self.tf.publish(arm_tf(100.04))
+        self.assertTrue(self.answer(1).measured)
+
+    def test_order_of_arrival_does_not_change_a_bit(self):
+        stamps = image_stamps(100.0)
+        end = stamps[-1] + 0.02
+
+        def tf_first():
+            self.send_tf(99.99, end)
+            rospy.rostime.wallsleep(0.3)
+            for stamp in stamps:
+                self.images.publish(detections(stamp))
+
+        def tf_last():
+            for stamp in stamps:
+                self.images.publish(detections(stamp))
+            rospy.rostime.wallsleep(0.3)
+            self.send_tf(99.99, end)
+
+        def in_step(pause):
+            self.tf.publish(arm_tf(99.99))
+            ticks = [100.0 + k * TF_PERIOD for k in range(round((end - 100.0) / TF_PERIOD) + 1)]
+            pending = list(stamps)
+            for tick in ticks:
+                while pending and pending[0] <= tick:
+                    self.images.publish(detections(pending.pop(0)))
+                rospy.rostime.wallsleep(pause)
+                self.tf.publish(arm_tf(tick))
+
+        reference = None
+        for order in (tf_first, tf_last, lambda: in_step(0.0), lambda: in_step(0.01)):
+            self.begin_run()
+            order()
+            self.answer(len(stamps))
+            found = [content(forecast) for forecast in self.answers]
+            self.assertTrue(all(forecast.measured for forecast in self.answers))
+            reference = reference or found
+            self.assertEqual(found, reference)
+
+    def test_unusable_sights_are_answered_without_measurement(self):
+        self.send_tf(100.0, 101.0)
+        rospy.rostime.wallsleep(0.3)
+        self.images.publish(detections(100.05))
+        self.assertTrue(self.answer(1).measured)
+        cases = [detections(100.1, xyz=(math.nan, 0.0, 0.5)), detections(100.15, tag_id=3),
+                 detections(100.2, frame="nowhere"), detections(100.25, frame=""),
+                 detections(100.3, xyz=(0.0, 0.5, 0.5))]
+        for count, case in enumerate(cases, start=2):
+            self.images.publish(case)
+            forecast = self.answer(count)
+            self.assertFalse(forecast.measured)
+            self.assertTrue(all(math.isfinite(v) for p in forecast.predictions
+                                for v in p.covariance))
+        self.images.publish(detections(100.35))
+        self.assertTrue(self.answer(len(cases) + 2).measured)
+
+    def test_image_before_all_tf_is_answered_at_once(self):
+        self.send_tf(100.0, 100.1)
+        self.images.publish(detections(99.9))
+        self.assertFalse(self.answer(1).measured)
+
+    def test_gives_up_on_silent_tf_by_the_stamps_of_images(self):
+        self.images.publish(detections(100.0))
+        self.images.publish(detections(100.4))
+        rospy.rostime.wallsleep(0.3)
+        self.assertEqual(self.answers, [])
+        self.images.publish(detections(100.6))
+        self.assertEqual(self.answer(1).status, TargetForecast.NO_TARGET)
+
+
+class TargetPredictorParameters(unittest.TestCase):
+    CATALOGUE = [
+        ("planning_frame", ""), ("planning_frame", 1), ("tag_id", -1), ("tag_id", 0.5),
+        ("horizons", []), ("horizons", [0.1, 0.2]), ("horizons", [0.0, 0.2, 0.2]),
+        ("horizons", [0.0, float("nan")]), ("horizons", "soon"), ("tf_wait", -1.0),
+        ("sigma_points", "magic"), ("acceleration_density", 0.0),
+        ("acceleration_density", float("nan")), ("angular_acceleration_density", -1.0),
+        ("velocity_time_constant", 0.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
+        ("gate_probability", 1.0), ("gate_probability", 0.1), ("reacquire_hits", 1),
+        ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
+    ]
+
+    def test_bad_values_end_the_node_with_code_2_and_their_name(self):
+        path = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "target_predictor.yaml")
+        with open(path, encoding="utf-8") as file:
+            good = yaml.safe_load(file)
+        executable = roslib.packages.find_node(PACKAGE, "target_predictor_node")[0]
+        for name, value in self.CATALOGUE:
+            with self.subTest(name=name, value=value):
+                values = {k: v for k, v in {**good, name: value}.items() if v is not None}
+                if rospy.has_param("/refused"):
+                    rospy.delete_param("/refused")
+                rospy.set_param("/refused", values)
+                done = subprocess.run([executable, "__name:=refused"], timeout=20, check=False,
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                fatal = [line for line in done.stderr.splitlines() if "FATAL" in line]
+                self.assertEqual(len(fatal), 1, done.stderr)
+                self.assertIn(name, fatal[0])
+
+
+if __name__ == "__main__":
+    rostest.rosrun(PACKAGE, "target_predictor_node", "__main__", sys.argv)
