@@ -115,7 +115,8 @@ HmmBelief HmmFilter::observe(const HmmBelief& belief, const Eigen::Vector3d& vel
   const Eigen::Vector3d log_joint =
       predicted.posterior.array().log().matrix() + log_emission(velocity);
   const double scale = log_joint.maxCoeff();
-  const Eigen::Vector3d joint = (log_joint.array() - scale).exp();
+  const Eigen::Vector3d joint =
+      log_joint.unaryExpr([scale](double value) { return std::exp(value - scale); });
   return {joint / joint.sum(), true, predicted.log_likelihood + scale + std::log(joint.sum())};
 }
 
