@@ -25,9 +25,11 @@ TEST(CheckedSetpoint, TakesAPoseAndItsVelocity) {
 }
 
 TEST(CheckedSetpoint, NormalisesAQuaternionThatIsNearlyUnit) {
-  const Setpoint setpoint = checked_setpoint(kZero, 1.005 * kIdentity, kZero, kZero);
+  const Eigen::Vector4d nearly_unit = 1.005 * Eigen::Vector4d(0.5, 0.5, 0.5, 0.5);
+  const Setpoint setpoint = checked_setpoint(kZero, nearly_unit, kZero, kZero);
   ASSERT_EQ(setpoint.kind, SetpointKind::kPose);
-  EXPECT_TRUE(setpoint.pose.hand_in_base.linear().isIdentity(1e-15));
+  const Eigen::Matrix3d rotation = setpoint.pose.hand_in_base.linear();
+  EXPECT_TRUE((rotation * rotation.transpose()).isIdentity(1e-15));
 }
 
 TEST(CheckedSetpoint, RefusesQuaternionsThatAreNoRotation) {
