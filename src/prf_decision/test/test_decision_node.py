@@ -78,17 +78,17 @@ class World:
         self.forecasts = rospy.Publisher("target/forecast", TargetForecast, queue_size=1000)
         self.trajectories = rospy.Publisher("skill/trajectory", SkillTrajectory, queue_size=1000)
         self.changed = threading.Condition()
-        self.planner_alive = True
-        self.planner_delay = None
-        self.clear()
+        self.begin(0)
         rospy.Subscriber("execution/progress", ExecutionProgress, self.on_progress)
         rospy.Subscriber("execution/setpoint", MultiDOFJointTrajectory, self.on_setpoint)
         publishers = (self.joint_states, self.forecasts, self.trajectories)
         while any(p.get_num_connections() == 0 for p in publishers):
             rospy.sleep(0.05)
 
-    def clear(self):
-        rospy.rostime.wallsleep(0.3)  # what is under way of the run before
+    def begin(self, start):
+        rospy.rostime.wallsleep(0.5)  # what is under way of the run before
+        self.start, self.ticks = start, 0
+        self.planner_alive, self.planner_delay = True, None
         self.progress, self.setpoints, self.last_forecast = [], [], rospy.Time()
 
     def on_progress(self, message):
@@ -107,7 +107,7 @@ class World:
             self.setpoints.append(message)
             self.changed.notify_all()
 
-    def wait_for(self, ticks, seconds=10):
+    def wait_for(self, ticks, seconds=30):
         def complete():
             return len(self.progress) >= ticks and len(self.setpoints) >= ticks
 
@@ -115,22 +115,25 @@ class World:
             return self.changed.wait_for(complete, seconds)
 
     def play(self, first, last, skew=lambda: 0):
-        """Ticks in [first, last) ms and the images up to then; `skew` delays forecasts, ms."""
-        events = [(ms, 0, ms) for ms in range(first, last, 10)]
-        due = first
-        for k in range((last - first) * 30 // 1000):
-            ms = first + k * 100 // 3
-            due = max(due, ms + 40 + skew())  # in the order of the images whatever the skew
-            events.append((due, 1, ms))
-        sent = 0
-        for _, is_forecast, ms in sorted(events):
-            if is_forecast:
+        """Ticks in [first, last) ms of the run; an image arrives 40 ms after its exposure, and
+        `skew` ms more. Returns when every tick is answered."""
+        ticks = [(ms, 0, ms) for ms in range(self.start + first, self.start + last, 10)]
+        images = []
+        due = 0
+        for ms in (k * 100 // 3 for k in range(last * 3 // 100 + 1)):
+            if first <= ms + 40 < last:
+                due = max(due, ms + 40 + skew())  # in the order of the images whatever the skew
+                images.append((self.start + due, 1, self.start + ms))
+        for _, is_image, ms in sorted(ticks + images):
+            if is_image:
                 self.forecasts.publish(forecast(ms))
                 continue
             self.joint_states.publish(joint_state(ms))
-            sent += 1
-            # Never more than 20 ticks ahead of the answers, as a robot that waits for commands.
-            self.wait_for(len(self.progress) if sent < 20 else sent - 20, 1)
+            self.ticks += 1
+            # As a robot that waits for its commands; without a planner it is given up after 30.
+            ahead = 20 if self.planner_alive else 40
+            self.wait_for(self.ticks - ahead)
+        return self.wait_for(self.ticks - (0 if self.planner_alive else 40))
 
 
 class DecisionNode(unittest.TestCase):
@@ -141,18 +144,15 @@ class DecisionNode(unittest.TestCase):
 
     def begin_run(self):
         type(self).epoch -= 20000
-        self.world.clear()
-        self.world.planner_alive, self.world.planner_delay = True, None
-        return self.epoch
+        self.world.begin(self.epoch)
+        return self.epoch, self.world
 
     def test_answers_every_tick_with_equal_stamps_and_completes_the_skill(self):
-        start, world = self.begin_run(), self.world
-        world.play(start, start + 6000)
-        # The images after 5.967 s never come, so the last ticks up to the give-up stay open.
-        self.assertTrue(world.wait_for(595), len(world.progress))
-        ticks = [start + 10 * i for i in range(595)]
-        self.assertEqual([milliseconds(p.header.stamp) for p in world.progress[:595]], ticks)
-        self.assertEqual([milliseconds(s.header.stamp) for s in world.setpoints[:595]], ticks)
+        start, world = self.begin_run()
+        self.assertTrue(world.play(0, 6000), len(world.progress))
+        ticks = [start + 10 * i for i in range(600)]
+        self.assertEqual([milliseconds(p.header.stamp) for p in world.progress], ticks)
+        self.assertEqual([milliseconds(s.header.stamp) for s in world.setpoints], ticks)
 
         states = [p.state for p in world.progress]
         changes = [s for i, s in enumerate(states) if i == 0 or s != states[i - 1]]
@@ -174,47 +174,34 @@ class DecisionNode(unittest.TestCase):
 
     def test_gives_the_same_outputs_whatever_the_interleaving(self):
         runs = []
-        seeds = (1, 2, 3)
-        start = self.begin_run()
-        for seed in seeds:
+        start, world = self.begin_run()
+        for seed in (1, 2, 3):
             draw = random.Random(seed)
-            self.world.clear()
-            self.world.planner_delay = lambda: draw.uniform(0, 0.004)
-            self.world.play(start, start + 2000, skew=lambda: draw.randrange(-40, 150))
-            self.assertTrue(self.world.wait_for(195), (seed, len(self.world.progress)))
+            world.begin(start)
+            world.planner_delay = lambda: draw.uniform(0, 0.004)
+            self.assertTrue(world.play(0, 2000, skew=lambda: draw.randrange(-40, 150)), seed)
             runs.append([serialized(p) + serialized(s)
-                         for p, s in zip(self.world.progress[:195], self.world.setpoints[:195])])
-            self.assertEqual(self.world.progress[194].state, ExecutionProgress.TRACKING)
+                         for p, s in zip(world.progress, world.setpoints)])
+            self.assertEqual(len(runs[-1]), 200)
+            self.assertEqual(world.progress[-1].state, ExecutionProgress.TRACKING)
         self.assertEqual(runs[0], runs[1])
         self.assertEqual(runs[0], runs[2])
 
     def test_pauses_after_max_wait_when_the_planner_is_silent_and_resumes_with_it(self):
-        start, world = self.begin_run(), self.world
-        world.play(start, start + 600)
-        world.wait_for(55)
+        _, world = self.begin_run()
+        self.assertTrue(world.play(0, 600))
         before = world.progress[-1]
         self.assertEqual(before.state, ExecutionProgress.FORWARD)
         world.planner_alive = False
-        self.continue_run(start + 600, 800)
+        self.assertTrue(world.play(600, 1400))
         held = world.progress[-1]
         self.assertEqual(held.state, ExecutionProgress.PAUSE)
         self.assertEqual(held.reason, "planner silent")
         self.assertLessEqual(held.cursor, before.cursor + 1)
         world.planner_alive = True
-        self.continue_run(start + 1400, 2000)
+        self.assertTrue(world.play(1400, 3400))
         self.assertEqual(world.progress[-1].state, ExecutionProgress.TRACKING)
         self.check_no_jump(world.setpoints)
-
-    def continue_run(self, first, duration):
-        """As play, but the images before are already known and the answers may be missing."""
-        images = [ms for ms in (self.epoch + k * 100 // 3 for k in range(3000))
-                  if first - 40 <= ms < first + duration - 40]
-        for ms in range(first, first + duration, 10):
-            while images and images[0] + 40 <= ms:
-                self.world.forecasts.publish(forecast(images.pop(0)))
-            self.world.joint_states.publish(joint_state(ms))
-            rospy.rostime.wallsleep(0.003)
-        rospy.rostime.wallsleep(0.3)
 
     def check_no_jump(self, setpoints):
         path = [s.points[0].transforms[0].translation.x for s in setpoints if s.points]
@@ -222,20 +209,19 @@ class DecisionNode(unittest.TestCase):
         self.assertLess(max(abs(b - a) for a, b in zip(path, path[1:])), 0.005 + 1e-9)
 
     def test_begins_anew_when_the_clock_goes_back(self):
-        start, world = self.begin_run(), self.world
-        world.play(start, start + 500)
-        self.assertTrue(world.wait_for(45))
+        _, world = self.begin_run()
+        self.assertTrue(world.play(0, 500))
         self.assertNotEqual(world.progress[-1].state, ExecutionProgress.WAITING)
-        start = self.begin_run()
-        world.joint_states.publish(joint_state(start))
-        self.assertTrue(world.wait_for(1))
-        first = [p for p in world.progress if milliseconds(p.header.stamp) == start][0]
+        start, world = self.begin_run()
+        self.assertTrue(world.play(0, 10))
+        first = world.progress[0]
+        self.assertEqual(milliseconds(first.header.stamp), start)
         self.assertEqual(first.state, ExecutionProgress.WAITING)
         self.assertEqual(first.forecast_stamp, rospy.Time())
         self.assertEqual(first.cursor, 0)
 
     def test_does_not_act_on_messages_that_are_not_finite_or_in_another_frame(self):
-        start, world = self.begin_run(), self.world
+        start, world = self.begin_run()
         for k in range(3):
             bad = forecast(start + k * 100 // 3)
             if k == 0:
