@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -116,6 +117,9 @@ void PrivateParameters::refuse_unknown() const {
 }
 
 int run(const std::function<void()>& node_main) {
+  // With its last handle ROS shuts down, and the log with it: this one outlives node_main's.
+  std::optional<ros::NodeHandle> handle;
+  if (ros::isInitialized()) handle.emplace();
   try {
     node_main();
     return 0;
