@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gravity.hpp"
 
@@ -14,6 +15,8 @@ constexpr double kCycle = 0.8;  // s
 constexpr double kDuty = 0.54;  // part of the cycle that a foot is down
 constexpr double kLift = 0.08;  // m
 
+constexpr double kLeaning = 0.5;          // part of the deck's slope that the body follows
+constexpr double kSlopeLearning = 12.0;   // 1/s
 constexpr double kTilt = 500.0;           // Nm/rad
 constexpr double kTiltRate = 34.0;        // Nm s/rad
 constexpr double kWay = 4.0;              // 1/s2
@@ -93,13 +96,28 @@ void StepController::estimate_body(const Feet& feet, double time) {
     grounded += 1.0;
   }
   if (grounded > 0.0) body_velocity_ = velocity / grounded;
-  if (has_time_) body_way_ += (time - last_time_) * body_velocity_;
+  if (has_time_) {
+    body_way_ += (time - last_time_) * body_velocity_;
+    estimate_slope(feet, time - last_time_);
+  }
   last_time_ = time;
   has_time_ = true;
 }
 
-// Virtual springs and dampers: level and straight ahead, back over the starting point, and at the
-// standing height over the feet.
+// Feet i and j on a deck of pitch p and roll r: z_i - z_j = -p (x_i - x_j) + r (y_i - y_j). One
+// diagonal pair cannot tell p from r; the two in turn can.
+void StepController::estimate_slope(const Feet& feet, double duration) {
+  for (const auto& [front, rear] : {std::pair<std::size_t, std::size_t>{0, 3}, {1, 2}}) {
+    if (!feet.on_ground[front] || !feet.on_ground[rear]) continue;
+    const Eigen::Vector3d way = feet.positions[front] - feet.positions[rear];
+    const Eigen::Vector2d direction(-way.x(), way.y());
+    const double error = way.z() - direction.dot(slope_);
+    slope_ += kSlopeLearning * duration * error / direction.squaredNorm() * direction;
+  }
+}
+
+// Virtual springs and dampers: between level and the deck's slope, straight ahead, back over the
+// starting point, and at the standing height over the feet.
 Wrench StepController::balance(const LegObservation& observation, const Feet& feet) const {
   double height = 0.0;
   double grounded = 0.0;
@@ -114,7 +132,10 @@ Wrench StepController::balance(const LegObservation& observation, const Feet& fe
                                      kHeight * height_error - kHeightRate * body_velocity_.z());
   Wrench wanted;
   wanted.force = body_.weight * (Eigen::Vector3d::UnitZ() + acceleration / kGravity);
-  wanted.torque = kTilt * rotation_vector(observation.attitude, Eigen::Quaterniond::Identity()) -
+  const Eigen::Quaterniond attitude =
+      Eigen::AngleAxisd(kLeaning * slope_[0], Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(kLeaning * slope_[1], Eigen::Vector3d::UnitX());
+  wanted.torque = kTilt * rotation_vector(observation.attitude, attitude) -
                   kTiltRate * (observation.attitude * observation.angular_velocity);
   return wanted;
 }
@@ -147,9 +168,10 @@ void StepController::swing(const LegObservation& observation, const Feet& feet, 
   const double blend = 0.5 * (1.0 - std::cos(kPi * part));
   const double blend_rate = 0.5 * kPi * std::sin(kPi * part) / kDuration;
 
-  // Under its hip, and ahead by half the way of a stance plus the part that brakes.
+  // Around the centre of mass, and ahead by half the way of a stance plus the part that brakes.
   Eigen::Vector3d landing = stance_.toes_in_base[leg];
-  landing.head<2>() += (0.5 * kDuty * kCycle + kRaibert) * body_velocity_.head<2>();
+  landing.head<2>() += (observation.attitude * body_.centre_of_mass_in_base).head<2>() +
+                       (0.5 * kDuty * kCycle + kRaibert) * body_velocity_.head<2>();
   landing.z() -= kPressDown;
   const double arc = kLift * std::sin(kPi * part) * std::sin(kPi * part);
   const double arc_rate = kLift * std::sin(2.0 * kPi * part) * kPi / kDuration;

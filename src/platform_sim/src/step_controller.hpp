@@ -10,10 +10,10 @@
 namespace platform_sim {
 
 /// Trots in place. Feet on the ground carry the body by virtual springs between its pose and the
-/// level pose over the feet; the forces come from distribute_wrench() and act through -J^T f. Feet
-/// in the air are drawn by springs along an arc to where they balance the body's velocity over
-/// the deck (Raibert 1986). The body's way over the deck is summed from the legs' motion. Before
-/// time 0 all feet stay down.
+/// pose half-way between level and the deck's slope over the feet; the forces come from
+/// distribute_wrench() and act through -J^T f. Feet in the air are drawn by springs along an arc to
+/// where they balance the body's velocity over the deck (Raibert 1986). The body's way over the
+/// deck is summed from the legs' motion. Before time 0 all feet stay down.
 class StepController : public LegController {
  public:
   StepController(const Stance& stance, const BodyModel& body, double friction);
@@ -30,6 +30,7 @@ class StepController : public LegController {
 
   [[nodiscard]] Feet observe(const LegObservation& observation) const;
   void estimate_body(const Feet& feet, double time);
+  void estimate_slope(const Feet& feet, double duration);
   [[nodiscard]] Wrench balance(const LegObservation& observation, const Feet& feet) const;
   void carry(const LegObservation& observation, const Feet& feet, LegVector& torques);
   void swing(const LegObservation& observation, const Feet& feet, std::size_t leg,
@@ -40,6 +41,7 @@ class StepController : public LegController {
   double friction_;
   Eigen::Vector3d body_way_ = Eigen::Vector3d::Zero();       // over the deck since the start
   Eigen::Vector3d body_velocity_ = Eigen::Vector3d::Zero();  // over the deck
+  Eigen::Vector2d slope_ = Eigen::Vector2d::Zero();          // pitch and roll of the deck, rad
   std::array<Eigen::Vector3d, 4> lift_off_;
   std::array<Eigen::Vector3d, 4> forces_;  // last ones, where the next search starts
   double last_time_ = 0.0;
