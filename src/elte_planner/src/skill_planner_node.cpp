@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <prf_parameters/private_parameters.hpp>
 #include <ros/ros.h>
+#include <prf_parameters/private_parameters.hpp>
 
 #include <chrono>
 

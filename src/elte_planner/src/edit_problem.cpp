@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/edit_problem.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace elte_planner {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void check_bound(const std::string& name, double value) {
+  if (!(value >= 0.0)) {
+    refuse(name + " is " + std::to_string(value) + ", must be at least 0");
+  }
+}
+
+void check_constraint(const PointConstraint& constraint, std::size_t index, Eigen::Index nodes,
+                      Eigen::Index dimensions) {
+  const std::string name = "constraint " + std::to_string(index);
+  if (constraint.node < 0 || constraint.node >= nodes) {
+    refuse(name + " is on node " + std::to_string(constraint.node) + ", must be within [0, " +
+           std::to_string(nodes - 1) + "]");
+  }
+  const bool box = constraint.shape == PointConstraint::Shape::kBox;
+  if (constraint.centre.size() != dimensions ||
+      (box && constraint.half_widths.size() != dimensions)) {
+    refuse(name + " has " + std::to_string(constraint.centre.size()) + " coordinates, must have " +
+           std::to_string(dimensions));
+  }
+  if (!constraint.centre.allFinite()) refuse(name + " has a coordinate that is not finite");
+  if (!box) {
+    check_bound(name + " radius", constraint.radius);
+    return;
+  }
+  for (const double half_width : constraint.half_widths) {
+    check_bound(name + " half width", half_width);
+  }
+}
+
+}  // namespace
+
+PointConstraint PointConstraint::ball(Eigen::Index node, Eigen::VectorXd centre, double radius) {
+  return {Shape::kBall, node, std::move(centre), radius, {}};
+}
+
+PointConstraint PointConstraint::box(Eigen::Index node, Eigen::VectorXd centre,
+                                     Eigen::VectorXd half_widths) {
+  return {Shape::kBox, node, std::move(centre), 0.0, std::move(half_widths)};
+}
+
+PointConstraint PointConstraint::equality(Eigen::Index node, Eigen::VectorXd point) {
+  return ball(node, std::move(point), 0.0);
+}
+
+void EditProblem::validate() const {
+  validate_demonstration_nodes(zeta);
+  weights.validate();
+  if (fixed.rows() > zeta.rows() || (fixed.rows() > 0 && fixed.cols() != zeta.cols())) {
+    refuse("fixed rows are " + std::to_string(fixed.rows()) + " x " + std::to_string(fixed.cols()) +
+           ", must be at most " + std::to_string(zeta.rows()) + " x " +
+           std::to_string(zeta.cols()));
+  }
+  if (!fixed.allFinite()) refuse("fixed rows have a coordinate that is not finite");
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    check_constraint(constraints[i], i, zeta.rows(), zeta.cols());
+  }
+  check_bound("max_step", max_step);
+  check_bound("max_first_step", max_first_step);
+}
+
+}  // namespace elte_planner

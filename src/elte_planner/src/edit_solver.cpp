@@ -1,0 +1,675 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "active_set.hpp"
+#include "elte_planner/edit_problem.hpp"
+#include "step_chain.hpp"
+
+namespace elte_planner {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool is_equality(const PointConstraint& c) {
+  return c.shape == PointConstraint::Shape::kBall && c.radius == 0.0;
+}
+
+}  // namespace
+
+// Positions are held relative to the first fixed row or, when there is none, to zeta's: an offset
+// of the whole problem then costs no digits.
+class EditSolver::Workspace {
+ public:
+  void solve(const EditProblem& problem, const EditSettings& settings, EditSolution& solution);
+
+ private:
+  enum class Outcome { kDone, kInfeasible, kIterationLimit };
+
+  void prepare();
+  std::string ill_posed_reason() const;
+  bool fixed_rows_are_feasible(EditSolution& solution) const;
+  void build_right_side();
+
+  Outcome solve_strictly_convex(EditSolution& solution);
+  bool move_proximal_centre();
+  void set_centre(const Eigen::VectorXd& centre);
+  void respond_to_centre(Eigen::Index j, bool slope, Eigen::MatrixXd& change);
+  bool add_equalities(EditSolution& solution, Outcome& outcome);
+  Outcome add_violated(int patience, EditSolution& solution);
+  Outcome enter(double violation, EditSolution& solution);
+  bool most_violated(Facet& facet, double& violation);
+  void offer_ball(int constraint, Eigen::Index index, bool on_step, double radius, double& worst,
+                  Facet& best);
+  void offer_box(int constraint, double& worst, Facet& best);
+
+  void recompute_from_multipliers();
+  void polish();
+  double violation_of(const Facet& facet, Eigen::Index normal) const;
+
+  std::string name_of(int constraint) const;
+  void name_contradiction(EditSolution& solution) const;
+  void report(EditSolution& solution);
+  void refine(EditSolution& solution);
+  double residual(const EditSolution& solution);
+  void newton_step();
+  void compute_gradient(const Eigen::MatrixXd& y);
+
+  const EditProblem* problem_ = nullptr;
+  const EditSettings* settings_ = nullptr;
+  Eigen::Index n_ = 0;
+  Eigen::Index d_ = 0;
+  Eigen::Index fixed_rows_ = 0;
+  double extent_ = 1.0;
+  double tolerance_ = 0.0;  // of feasibility, in the unit of the problem
+  double last_centre_step_ = kInfinity;
+  StepChain chain_;
+  ActiveSet active_;
+  Eigen::VectorXd last_centre_;
+  Eigen::VectorXd last_residual_;
+  Eigen::VectorXd centre_step_;
+  Eigen::RowVectorXd origin_;
+  Eigen::RowVectorXd start_;  // y_0 of the proximal term
+  Eigen::RowVectorXd slope_;  // v_1 of the proximal term
+  Eigen::MatrixXd centres_;   // constraints x dimensions, relative
+  Eigen::MatrixXd right_;     // of the equations in the steps
+  Eigen::MatrixXd y_;         // relative
+  Eigen::MatrixXd steps_;
+  Eigen::MatrixXd gradient_;  // half that of the Lagrangian
+  Eigen::VectorXd best_normal_;
+  Eigen::VectorXd trial_normal_;
+  Eigen::VectorXd values_;
+};
+
+void EditSolver::Workspace::solve(const EditProblem& problem, const EditSettings& settings,
+                                  EditSolution& solution) {
+  problem.validate();
+  problem_ = &problem;
+  settings_ = &settings;
+  solution.message.clear();
+  solution.active.clear();
+  solution.iterations = 0;
+  solution.active_facets = 0;
+  prepare();
+  solution.message = ill_posed_reason();
+  if (!solution.message.empty()) {
+    solution.status = EditStatus::kIllPosed;
+    solution.y.resize(0, 0);
+    return;
+  }
+  Outcome outcome = Outcome::kInfeasible;
+  if (fixed_rows_are_feasible(solution)) {
+    outcome = solve_strictly_convex(solution);
+    constexpr int kMaxNewtonSteps = 100;
+    for (int step = 0; step < kMaxNewtonSteps && outcome == Outcome::kDone; ++step) {
+      if (!chain_.is_proximal() || !move_proximal_centre()) break;
+      outcome = solve_strictly_convex(solution);
+    }
+  }
+  solution.status = outcome == Outcome::kDone         ? EditStatus::kSolved
+                    : outcome == Outcome::kInfeasible ? EditStatus::kInfeasible
+                                                      : EditStatus::kIterationLimit;
+  if (outcome != Outcome::kDone) {
+    solution.y.resize(0, 0);
+    if (solution.message.empty()) solution.message = "the active set did not settle";
+    return;
+  }
+  report(solution);
+  refine(solution);
+  const double acceptable =
+      1e-8 * extent_ * (problem.weights.curvature() + problem.weights.elastic);
+  if (solution.kkt_residual > acceptable) {
+    solution.status = EditStatus::kIterationLimit;
+    solution.message = "optimality is missed by " + std::to_string(solution.kkt_residual);
+  }
+}
+
+void EditSolver::Workspace::prepare() {
+  n_ = problem_->zeta.rows();
+  d_ = problem_->zeta.cols();
+  fixed_rows_ = problem_->fixed.rows();
+  origin_ = fixed_rows_ > 0 ? problem_->fixed.row(fixed_rows_ - 1) : problem_->zeta.row(0);
+  const auto& constraints = problem_->constraints;
+  centres_.resize(static_cast<Eigen::Index>(constraints.size()), d_);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    centres_.row(static_cast<Eigen::Index>(i)) = constraints[i].centre.transpose() - origin_;
+  }
+  y_.resize(n_, d_);
+  steps_.resize(n_, d_);
+  right_.resize(n_, d_);
+  best_normal_.resize(d_);
+  trial_normal_.resize(d_);
+  start_ = problem_->zeta.row(0) - origin_;
+  slope_ = problem_->zeta.row(1) - problem_->zeta.row(0);
+  last_centre_step_ = kInfinity;
+  centre_step_.resize(0);
+  extent_ = (problem_->zeta.rowwise() - problem_->zeta.row(0)).cwiseAbs().maxCoeff();
+  if (centres_.size() > 0) extent_ = std::max(extent_, centres_.cwiseAbs().maxCoeff());
+  if (extent_ == 0.0) extent_ = 1.0;
+  chain_.factorise(problem_->zeta, problem_->weights, fixed_rows_);
+}
+
+std::string EditSolver::Workspace::ill_posed_reason() const {
+  if (fixed_rows_ > 1 || fixed_rows_ == n_ || !chain_.is_proximal()) return {};
+  Eigen::Index held = fixed_rows_;
+  Eigen::Index last_node = -1;
+  for (const PointConstraint& c : problem_->constraints) {
+    if (c.node >= fixed_rows_ && c.node != last_node) ++held;
+    last_node = c.node;
+  }
+  if (held == 0) return "no row is fixed and no node constrained: the position is not determined";
+  if (held == 1 && chain_.slope_is_free()) {
+    return "one node is held and w_elastic is 0: the slope is not determined";
+  }
+  return {};
+}
+
+bool EditSolver::Workspace::fixed_rows_are_feasible(EditSolution& solution) const {
+  for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
+    const PointConstraint& c = problem_->constraints[i];
+    if (c.node >= fixed_rows_) continue;
+    const Eigen::VectorXd offset = problem_->fixed.row(c.node).transpose() - c.centre;
+    const bool box = c.shape == PointConstraint::Shape::kBox;
+    const double excess =
+        box ? (offset.cwiseAbs() - c.half_widths).maxCoeff() : offset.lpNorm<1>() - c.radius;
+    if (excess > settings_->tolerance * extent_ + 1e-15 * c.centre.cwiseAbs().maxCoeff()) {
+      solution.message = name_of(static_cast<int>(i)) + " is violated by " +
+                         std::to_string(excess) + " at a fixed row";
+      return false;
+    }
+  }
+  return true;
+}
+
+// b_i of the equations H v = b that hold at the unconstrained minimum.
+void EditSolver::Workspace::build_right_side() {
+  const Eigen::MatrixXd& zeta = problem_->zeta;
+  const double q = problem_->weights.curvature();
+  const bool end_rows = problem_->weights.laplacian == Laplacian::kRowNormalised;
+  const Eigen::Index first = chain_.first_step();
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    const auto demonstrated_step = [&](Eigen::Index i) { return zeta(i, j) - zeta(i - 1, j); };
+    for (Eigen::Index i = first; i < n_; ++i) {
+      double b = 0.0;
+      if (i > 1) b += 0.25 * (demonstrated_step(i) - demonstrated_step(i - 1));
+      if (i < n_ - 1) b -= 0.25 * (demonstrated_step(i + 1) - demonstrated_step(i));
+      if (end_rows && (i == 1 || i == n_ - 1)) b += demonstrated_step(i);
+      right_(i, j) = b;
+    }
+    if (fixed_rows_ > 1) {
+      const auto& fixed = problem_->fixed;
+      right_(first, j) += q * (fixed(first - 1, j) - fixed(first - 2, j));
+    }
+    if (chain_.slope_is_free()) right_(1, j) += StepChain::kProximalWeight * slope_[j];
+  }
+}
+
+EditSolver::Workspace::Outcome EditSolver::Workspace::solve_strictly_convex(
+    EditSolution& solution) {
+  for (Eigen::Index k = 0; k < fixed_rows_; ++k) y_.row(k) = problem_->fixed.row(k) - origin_;
+  active_.reset(&chain_, n_, d_);
+  if (fixed_rows_ == n_) return Outcome::kDone;
+  build_right_side();
+  recompute_from_multipliers();
+  Outcome outcome = Outcome::kDone;
+  if (!add_equalities(solution, outcome)) return outcome;
+  // Violations below the rounding of the positions make facets come and go for ever: a round that
+  // takes too long ends, and the next one asks for less.
+  constexpr int kMaxRounds = 20;
+  tolerance_ = settings_->tolerance * extent_;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const int before = solution.iterations;
+    const int patience = 300 + 30 * static_cast<int>(active_.size() + problem_->constraints.size());
+    outcome = add_violated(patience, solution);
+    if (outcome != Outcome::kDone) return outcome;
+    if (round > 0 && solution.iterations == before) return Outcome::kDone;
+    if (solution.iterations - before > patience) tolerance_ *= 10.0;
+    polish();
+  }
+  return Outcome::kDone;
+}
+
+// Where the Hessian is singular, the problem is solved with a proximal term around (start, slope)
+// in its place. The centre that the solution itself takes is the answer; the map from one to the
+// other is piecewise affine, so that Newton's method ends after a few steps. Directions that
+// nothing determines stay as they are.
+bool EditSolver::Workspace::move_proximal_centre() {
+  const bool slope_free = chain_.slope_is_free();
+  const bool start_free = chain_.start_is_free();
+  const Eigen::Index size = d_ * (int{start_free} + int{slope_free});
+  const auto centre_of = [&](const Eigen::MatrixXd& y) {
+    Eigen::VectorXd centre(size);
+    if (start_free) centre.head(d_) = y.row(0).transpose();
+    if (slope_free) centre.tail(d_) = (y.row(1) - y.row(0)).transpose();
+    return centre;
+  };
+  Eigen::VectorXd centre(size);
+  if (start_free) centre.head(d_) = start_.transpose();
+  if (slope_free) centre.tail(d_) = slope_.transpose();
+  const Eigen::VectorXd residual = centre_of(y_) - centre;
+
+  // The residual is minus the gradient of a convex function of the centre. Where the last step went
+  // far beyond its minimum along the step, the centre goes back to the secant's zero.
+  if (centre_step_.size() == size) {
+    const double before = last_residual_.dot(centre_step_);
+    const double after = residual.dot(centre_step_);
+    if (after < -0.5 * before && centre_step_.cwiseAbs().maxCoeff() > 1e-12 * extent_) {
+      centre_step_ *= before / (before - after);
+      set_centre(last_centre_ + centre_step_);
+      return true;
+    }
+  }
+
+  Eigen::MatrixXd jacobian(size, size);
+  Eigen::MatrixXd change(n_, d_);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    respond_to_centre(column % d_, !start_free || column >= d_, change);
+    jacobian.col(column) = -centre_of(change);
+    jacobian(column, column) += 1.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 *
+                                                             (jacobian + jacobian.transpose()));
+  Eigen::VectorXd step = eigen.eigenvectors().transpose() * residual;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (eigen.eigenvalues()[i] > 1e-10) step[i] /= eigen.eigenvalues()[i];
+  }
+  step = eigen.eigenvectors() * step;
+  // Below this the steps are made of rounding; they stop getting shorter.
+  const double length = step.cwiseAbs().maxCoeff();
+  if (length <= 1e-10 * extent_ && !(length < 0.5 * last_centre_step_)) return false;
+  last_centre_step_ = length;
+  last_centre_ = centre;
+  last_residual_ = residual;
+  centre_step_ = step;
+  set_centre(centre + step);
+  return true;
+}
+
+void EditSolver::Workspace::set_centre(const Eigen::VectorXd& centre) {
+  if (chain_.start_is_free()) start_ = centre.head(d_).transpose();
+  if (chain_.slope_is_free()) slope_ = centre.tail(d_).transpose();
+}
+
+// Derivative of the positions by one coordinate of the proximal centre on the active set.
+void EditSolver::Workspace::respond_to_centre(Eigen::Index j, bool slope, Eigen::MatrixXd& change) {
+  change.setZero();
+  if (slope) {
+    chain_.respond_to_step_force(1, change.col(j).data());
+    change.col(j) *= StepChain::kProximalWeight;
+  } else {
+    change.col(j).setOnes();
+  }
+  values_.resize(std::max<Eigen::Index>(values_.size(), active_.size()));
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    const double before = facet.on_step ? change(facet.index - 1, j) : 0.0;
+    values_[a] = active_.normal(a)[j] * (change(facet.index, j) - before);
+  }
+  active_.solve_gram(values_);
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Eigen::VectorXd weights = values_[a] * active_.normal(a);
+    change -= active_.column(a) * weights.transpose();
+  }
+}
+
+// Steps and positions of the minimiser of the Lagrangian at the present multipliers.
+void EditSolver::Workspace::recompute_from_multipliers() {
+  const Eigen::Index first = chain_.first_step();
+  steps_.setZero();
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    if (!facet.on_step) steps_.row(facet.index) -= facet.multiplier * active_.normal(a).transpose();
+  }
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    double force = 0.0;
+    double* b = steps_.col(j).data();
+    for (Eigen::Index i = n_ - 1; i >= first; --i) {
+      force += b[i];
+      b[i] = right_(i, j) + force;
+    }
+    if (chain_.start_is_free()) {
+      y_(0, j) = start_[j] + (force + b[0]) / StepChain::kProximalWeight;
+    }
+  }
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    if (facet.on_step) steps_.row(facet.index) -= facet.multiplier * active_.normal(a).transpose();
+  }
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    double* v = steps_.col(j).data();
+    chain_.solve(v);
+    for (Eigen::Index i = first; i < n_; ++i) y_(i, j) = y_(i - 1, j) + v[i];
+  }
+}
+
+double EditSolver::Workspace::violation_of(const Facet& facet, Eigen::Index normal) const {
+  double value = -facet.offset;
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    const double x =
+        facet.on_step ? y_(facet.index, j) - y_(facet.index - 1, j) : y_(facet.index, j);
+    value += active_.normal(normal)[j] * x;
+  }
+  return value;
+}
+
+// Iterative refinement: the residual of the active facets is computed from fresh positions, until
+// it no longer halves.
+void EditSolver::Workspace::polish() {
+  constexpr int kMaxPasses = 10;
+  values_.resize(std::max<Eigen::Index>(values_.size(), active_.size()));
+  auto residuals = values_.head(active_.size());
+  double previous = kInfinity;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    recompute_from_multipliers();
+    if (active_.size() == 0) return;
+    for (Eigen::Index a = 0; a < active_.size(); ++a) residuals[a] = violation_of(active_[a], a);
+    const double largest = residuals.cwiseAbs().maxCoeff();
+    if (largest <= 1e-17 * extent_ || !(largest < 0.5 * previous)) return;
+    previous = largest;
+    active_.solve_gram(values_);
+    for (Eigen::Index a = 0; a < active_.size(); ++a) active_[a].multiplier += residuals[a];
+  }
+}
+
+bool EditSolver::Workspace::add_equalities(EditSolution& solution, Outcome& outcome) {
+  for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
+    const PointConstraint& c = problem_->constraints[i];
+    if (c.node < fixed_rows_) continue;
+    for (Eigen::Index j = 0; j < d_; ++j) {
+      const bool box = c.shape == PointConstraint::Shape::kBox;
+      if (!(is_equality(c) || (box && c.half_widths[j] == 0.0))) continue;
+      Facet facet;
+      facet.index = c.node;
+      facet.equality = true;
+      facet.constraint = static_cast<int>(i);
+      const double missing = y_(c.node, j) - centres_(static_cast<Eigen::Index>(i), j);
+      const double sign = missing < 0.0 ? -1.0 : 1.0;
+      facet.offset = sign * centres_(static_cast<Eigen::Index>(i), j);
+      best_normal_.setZero();
+      best_normal_[j] = sign;
+      active_.propose(facet, best_normal_);
+      if (active_.depends_on_active_facets_of_its_node()) {
+        if (std::abs(missing) <= 1e-9 * extent_) continue;  // said twice
+        name_contradiction(solution);
+        outcome = Outcome::kInfeasible;
+        return false;
+      }
+      outcome = enter(std::abs(missing), solution);
+      if (outcome != Outcome::kDone) return false;
+    }
+  }
+  return true;
+}
+
+EditSolver::Workspace::Outcome EditSolver::Workspace::add_violated(int patience,
+                                                                   EditSolution& solution) {
+  Facet facet;
+  double violation = 0.0;
+  const int limit = solution.iterations + patience;
+  while (solution.iterations <= limit && most_violated(facet, violation)) {
+    active_.propose(facet, best_normal_);
+    const Outcome outcome = enter(violation, solution);
+    if (outcome != Outcome::kDone) return outcome;
+  }
+  return Outcome::kDone;
+}
+
+// One constraint's way into the active set: full steps in primal and dual space, or as far as a
+// multiplier stays positive, after which its facet leaves.
+EditSolver::Workspace::Outcome EditSolver::Workspace::enter(double violation,
+                                                            EditSolution& solution) {
+  const bool node_only = std::isinf(problem_->max_step) && std::isinf(problem_->max_first_step);
+  double multiplier = 0.0;
+  for (;;) {
+    if (++solution.iterations > settings_->max_iterations) return Outcome::kIterationLimit;
+    // Facets of different nodes never depend on each other; with step bounds they can.
+    const bool dependent = active_.depends_on_active_facets_of_its_node() ||
+                           (!node_only && active_.pivot() <= 1e-11 * active_.own_product());
+    double blocking = kInfinity;
+    Eigen::Index leaving = -1;
+    for (Eigen::Index a = 0; a < active_.size(); ++a) {
+      const double rate = active_.direction(a);
+      if (active_[a].equality || rate <= 1e-12) continue;
+      const double limit = std::max(active_[a].multiplier, 0.0) / rate;
+      if (limit < blocking) {
+        blocking = limit;
+        leaving = a;
+      }
+    }
+    const double full = dependent ? kInfinity : violation / active_.pivot();
+    const double step = std::min(full, blocking);
+    if (std::isinf(step)) {
+      name_contradiction(solution);
+      return Outcome::kInfeasible;
+    }
+    if (!dependent) active_.move(step, y_);
+    for (Eigen::Index a = 0; a < active_.size(); ++a) {
+      active_[a].multiplier -= step * active_.direction(a);
+    }
+    multiplier += step;
+    if (full <= blocking) {
+      active_.accept(multiplier);
+      return Outcome::kDone;
+    }
+    if (!dependent) violation -= step * active_.pivot();
+    active_.drop(leaving);
+    active_.update_direction();
+  }
+}
+
+void EditSolver::Workspace::offer_ball(int constraint, Eigen::Index index, bool on_step,
+                                       double radius, double& worst, Facet& best) {
+  double norm = 0.0;
+  double offset = radius;
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    const double centre = on_step ? 0.0 : centres_(constraint, j);
+    const double x = on_step ? y_(index, j) - y_(index - 1, j) : y_(index, j);
+    const double sign = x < centre ? -1.0 : 1.0;
+    trial_normal_[j] = sign;
+    norm += std::abs(x - centre);
+    offset += sign * centre;
+  }
+  if (norm - radius <= worst) return;
+  worst = norm - radius;
+  best_normal_ = trial_normal_;
+  best = Facet{};
+  best.index = index;
+  best.on_step = on_step;
+  best.constraint = constraint;
+  best.offset = offset;
+}
+
+void EditSolver::Workspace::offer_box(int constraint, double& worst, Facet& best) {
+  const PointConstraint& c = problem_->constraints[static_cast<std::size_t>(constraint)];
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    const double x = y_(c.node, j) - centres_(constraint, j);
+    const double excess = std::abs(x) - c.half_widths[j];
+    if (c.half_widths[j] == 0.0 || !(excess > worst)) continue;
+    worst = excess;
+    const double sign = x < 0.0 ? -1.0 : 1.0;
+    best_normal_.setZero();
+    best_normal_[j] = sign;
+    best = Facet{};
+    best.index = c.node;
+    best.constraint = constraint;
+    best.offset = sign * centres_(constraint, j) + c.half_widths[j];
+  }
+}
+
+bool EditSolver::Workspace::most_violated(Facet& facet, double& violation) {
+  double worst = tolerance_;
+  const auto& constraints = problem_->constraints;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const PointConstraint& c = constraints[i];
+    if (c.node < fixed_rows_ || is_equality(c)) continue;
+    if (c.shape == PointConstraint::Shape::kBox) {
+      offer_box(static_cast<int>(i), worst, facet);
+    } else {
+      offer_ball(static_cast<int>(i), c.node, false, c.radius, worst, facet);
+    }
+  }
+  if (!std::isinf(problem_->max_step) || !std::isinf(problem_->max_first_step)) {
+    const auto count = static_cast<int>(constraints.size());
+    for (Eigen::Index i = chain_.first_step(); i < n_; ++i) {
+      const double bound = i == chain_.first_step()
+                               ? std::min(problem_->max_step, problem_->max_first_step)
+                               : problem_->max_step;
+      if (!std::isinf(bound)) offer_ball(count, i, true, bound, worst, facet);
+    }
+  }
+  violation = worst;
+  return worst > tolerance_;
+}
+
+std::string EditSolver::Workspace::name_of(int constraint) const {
+  const auto index = static_cast<std::size_t>(constraint);
+  if (index >= problem_->constraints.size()) return "the step bound";
+  return "constraint " + std::to_string(constraint) + " on node " +
+         std::to_string(problem_->constraints[index].node);
+}
+
+void EditSolver::Workspace::name_contradiction(EditSolution& solution) const {
+  std::vector<int> involved;
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    if (std::abs(active_.direction(a)) > 1e-9) involved.push_back(active_[a].constraint);
+  }
+  std::sort(involved.begin(), involved.end());
+  involved.erase(std::unique(involved.begin(), involved.end()), involved.end());
+  solution.message = name_of(active_.candidate().constraint) + " contradicts ";
+  if (involved.empty()) solution.message += "the fixed rows";
+  for (std::size_t i = 0; i < involved.size(); ++i) {
+    solution.message += (i > 0 ? " and " : "") + name_of(involved[i]);
+  }
+}
+
+void EditSolver::Workspace::report(EditSolution& solution) {
+  solution.active.clear();
+  solution.y = y_.rowwise() + origin_;
+  solution.y.topRows(fixed_rows_) = problem_->fixed;
+  solution.forces.setZero(centres_.rows(), d_);
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    if (facet.constraint >= solution.forces.rows()) continue;
+    solution.forces.row(facet.constraint) += 2.0 * facet.multiplier * active_.normal(a).transpose();
+    solution.active.push_back(facet.constraint);
+  }
+  std::sort(solution.active.begin(), solution.active.end());
+  solution.active.erase(std::unique(solution.active.begin(), solution.active.end()),
+                        solution.active.end());
+  for (const int i : solution.active) {
+    const PointConstraint& c = problem_->constraints[static_cast<std::size_t>(i)];
+    if (is_equality(c)) solution.y.row(c.node) = c.centre.transpose();
+  }
+  solution.active_facets = static_cast<int>(active_.size());
+  solution.energy = energy(problem_->zeta, problem_->weights, solution.y);
+  solution.kkt_residual = residual(solution);
+}
+
+// Many constraints close together with weak elasticity leave the positions, sums of steps, with an
+// error that the gradient sees. One Newton step of the optimality conditions on the active set,
+// from the gradient itself, removes it; kept only while it helps.
+void EditSolver::Workspace::refine(EditSolution& solution) {
+  constexpr int kMaxPasses = 4;
+  const double good_enough = 1e-14 * extent_ * (1.0 + problem_->weights.curvature());
+  for (int pass = 0; pass < kMaxPasses && solution.kkt_residual > good_enough; ++pass) {
+    const EditSolution before = solution;
+    const Eigen::MatrixXd positions = y_;
+    const std::vector<Facet> facets = active_.facets();
+    newton_step();
+    report(solution);
+    if (solution.kkt_residual < 0.5 * before.kkt_residual) continue;
+    solution = before;
+    y_ = positions;
+    active_.set_multipliers(facets);
+    return;
+  }
+}
+
+void EditSolver::Workspace::newton_step() {
+  const Eigen::Index first = chain_.first_step();
+  compute_gradient(y_.rowwise() + origin_);
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    double sum = 0.0;
+    double* v = steps_.col(j).data();
+    for (Eigen::Index i = n_ - 1; i >= first; --i) v[i] = sum -= gradient_(i, j);
+    double displacement = 0.0;
+    if (chain_.start_is_free()) {
+      displacement = (sum - gradient_(0, j)) / StepChain::kProximalWeight;
+      y_(0, j) += displacement;
+    }
+    chain_.solve(v);
+    for (Eigen::Index i = first; i < n_; ++i) y_(i, j) += displacement += v[i];
+  }
+  values_.resize(std::max<Eigen::Index>(values_.size(), active_.size()));
+  for (Eigen::Index a = 0; a < active_.size(); ++a) values_[a] = violation_of(active_[a], a);
+  active_.solve_gram(values_);
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    active_[a].multiplier += values_[a];
+    const Eigen::VectorXd weights = values_[a] * active_.normal(a);
+    const Eigen::Index count = n_ - first + 1;
+    y_.bottomRows(count) -= active_.column(a).tail(count) * weights.transpose();
+  }
+}
+
+void EditSolver::Workspace::compute_gradient(const Eigen::MatrixXd& y) {
+  gradient_.setZero(n_, d_);
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    for (Eigen::Index k = fixed_rows_; k < n_; ++k) {
+      gradient_(k, j) = half_gradient(problem_->zeta, problem_->weights, y, k, j);
+    }
+  }
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    const Eigen::RowVectorXd force = facet.multiplier * active_.normal(a).transpose();
+    gradient_.row(facet.index) += force;
+    if (facet.on_step) gradient_.row(facet.index - 1) -= force;
+  }
+}
+
+// From the positions as returned and the gradient of J itself, not from the method's own numbers.
+double EditSolver::Workspace::residual(const EditSolution& solution) {
+  compute_gradient(solution.y);
+  double worst = 0.0;
+  for (Eigen::Index a = 0; a < active_.size(); ++a) {
+    const Facet& facet = active_[a];
+    if (!facet.equality) worst = std::max(worst, -facet.multiplier);
+    worst = std::max(worst, std::abs(violation_of(facet, a)));
+  }
+  if (fixed_rows_ < n_) {
+    worst = std::max(worst, gradient_.bottomRows(n_ - fixed_rows_).cwiseAbs().maxCoeff());
+  }
+  for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
+    const PointConstraint& c = problem_->constraints[i];
+    const Eigen::VectorXd offset = solution.y.row(c.node).transpose() - c.centre;
+    const bool box = c.shape == PointConstraint::Shape::kBox;
+    worst = std::max(worst, box ? (offset.cwiseAbs() - c.half_widths).maxCoeff()
+                                : offset.lpNorm<1>() - c.radius);
+  }
+  for (Eigen::Index i = chain_.first_step(); i < n_; ++i) {
+    const double step = (solution.y.row(i) - solution.y.row(i - 1)).lpNorm<1>();
+    worst = std::max(worst, step - problem_->max_step);
+    if (i == chain_.first_step()) worst = std::max(worst, step - problem_->max_first_step);
+  }
+  return worst;
+}
+
+EditSolver::EditSolver() : workspace_(std::make_unique<Workspace>()) {}
+EditSolver::~EditSolver() = default;
+EditSolver::EditSolver(EditSolver&&) noexcept = default;
+EditSolver& EditSolver::operator=(EditSolver&&) noexcept = default;
+
+void EditSolver::solve(const EditProblem& problem, const EditSettings& settings,
+                       EditSolution& solution) {
+  workspace_->solve(problem, settings, solution);
+}
+
+EditSolution solve(const EditProblem& problem, const EditSettings& settings) {
+  EditSolution solution;
+  EditSolver().solve(problem, settings, solution);
+  return solution;
+}
+
+}  // namespace elte_planner
