@@ -49,22 +49,26 @@ CameraTransforms::Lookup CameraTransforms::lookup(const std::string& camera_fram
     result.reason = "stamp 0 means the latest time to tf";
     return result;
   }
+  bool is_decided = newest_ > stamp + patience_;
+  try {
+    const ros::Time latest =
+        buffer_.lookupTransform(planning_frame_, camera_frame, ros::Time()).header.stamp;
+    const bool nothing_moves = latest.isZero();
+    is_decided = is_decided || nothing_moves || latest > stamp;
+  } catch (const tf2::TransformException& error) {
+    result.reason = error.what();
+    const bool tree_is_known = has_static_ && newest_ > stamp;
+    is_decided = is_decided || tree_is_known;
+  }
+  if (!is_decided) return result;
   try {
     result.camera_in_planning =
         tf2::transformToEigen(buffer_.lookupTransform(planning_frame_, camera_frame, stamp));
     result.readiness = Readiness::kReady;
-    return result;
   } catch (const tf2::TransformException& error) {
+    result.readiness = Readiness::kNever;
     result.reason = error.what();
   }
-  bool is_final = newest_ > stamp + patience_;
-  try {
-    const auto latest = buffer_.lookupTransform(planning_frame_, camera_frame, ros::Time());
-    is_final = is_final || latest.header.stamp >= stamp;  // tf began after this stamp
-  } catch (const tf2::TransformException&) {
-    is_final = is_final || (has_static_ && newest_ >= stamp);  // the tree is known and lacks it
-  }
-  result.readiness = is_final ? Readiness::kNever : Readiness::kWait;
   return result;
 }
 

@@ -3,7 +3,9 @@
 //
 // Fed with /tf and /tf_static from the node's own queue. An answer depends on the order within
 // each topic alone: a stamp is ready once every moving frame between camera and planning frame has
-// a sample at or after it, and so the same two neighbours are interpolated whatever came when.
+// a sample AFTER it, so that the same two neighbours are interpolated whatever came when. (At a
+// sample's own stamp tf2 copies the sample while it is the newest and interpolates afterwards,
+// which differs in the last bit.)
 #pragma once
 
 #include <ros/time.h>

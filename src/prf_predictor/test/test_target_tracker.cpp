@@ -161,8 +161,9 @@ TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
     ASSERT_EQ(state.reacquired, hit == 5);
     ASSERT_EQ(state.measured, hit == 5);
   }
-  const auto state = tracker.process(43 * kFrame, {}).state;
-  EXPECT_LT((state.belief->motion.mean.head<3>() - moved).norm(), 1e-3);
+  const auto after = tracker.process(43 * kFrame, {});
+  ASSERT_TRUE(after.state.belief);
+  EXPECT_LT((after.state.belief->motion.mean.head<3>() - moved).norm(), 1e-3);
 }
 
 TEST(TargetTracker, BringsALostTargetBackAfterConsistentHits) {
