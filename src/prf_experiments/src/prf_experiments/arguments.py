@@ -71,18 +71,14 @@ def show(value):
 
 
 def parse(words, arguments):
-    """{name: value} for every argument; defaults where `words` are silent."""
+    """{name: value} for every argument; defaults where `words` are silent, else the last word."""
     values = {name: argument.default for name, argument in arguments.items()}
-    given = set()
     for word in words:
         name, separator, text = word.partition(":=")
         if not separator:
             raise ArgumentError(f"'{word}' is not of the form name:=value")
         if name not in arguments:
             raise ArgumentError(f"unknown argument '{name}'")
-        if name in given:
-            raise ArgumentError(f"'{name}' is given twice")
-        given.add(name)
         try:
             values[name] = arguments[name].parse(text)
         except ValueError:

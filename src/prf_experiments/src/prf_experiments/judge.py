@@ -35,6 +35,7 @@ OUT_OF_VIEW_LIMIT = 1 * SECOND
 # The V60's body stands about 0.53 m above the deck; lower or more tilted than this it has fallen.
 FALLEN_HEIGHT = 0.35  # m, body above the deck along the deck's normal
 FALLEN_TILT = np.radians(30.0)  # rad, body's z axis to the deck's normal
+LYING = ("body", "platform")  # links whose contact means the same
 
 TICK = SECOND // 100  # joint_states and everything published with them
 MAX_UNANSWERED_IMAGES = 3  # in flight when the trial ends
@@ -85,17 +86,14 @@ def longest_out_of_view(stamps, seen):
 
 
 def is_arm(link):
-    return link.startswith("j2s7s300_") or link.startswith("camera")
+    """Arm, hand or camera; the arm's base is bolted to the body and counts as body."""
+    return link.startswith(("j2s7s300_", "camera")) and link != "j2s7s300_link_base"
 
 
 def arm_contacts(contacts):
-    """Contacts of arm, hand or camera with anything that is not part of them.
-
-    The arm's base is bolted to the body, so that pair is a joint and no contact.
-    """
+    """Contacts of arm, hand or camera with anything that is not part of them."""
     return [contact for contact in contacts
-            if is_arm(contact.links[0]) != is_arm(contact.links[1])
-            and not ("j2s7s300_link_base" in contact.links and "base_link" in contact.links)]
+            if is_arm(contact.links[0]) != is_arm(contact.links[1])]
 
 
 def strongest_by_pair(contacts):
@@ -138,7 +136,8 @@ def defect(recording):
     unanswered = recording.images - len(recording.sight_stamps)
     if not 0 <= unanswered <= MAX_UNANSWERED_IMAGES:
         return f"{recording.images} images but {len(recording.sight_stamps)} tag_detections"
-    finished = recording.progress.states[-1] in (DONE, STOPPED)
+    finished = (recording.progress.states[-1] in (DONE, STOPPED)
+                or _fall(recording)[0] is not None)
     duration = recording.ticks[-1] - recording.ticks[0]
     if not finished and duration < TIME_LIMIT - 2 * TICK:
         return (f"the trial ends after {duration * 1e-9:.2f} s in state "
@@ -165,9 +164,9 @@ def _fall(recording):
     stamps, at_platform, at_base = np.intersect1d(recording.platform.stamps, recording.base.stamps,
                                                   return_indices=True)
     height, tilt = posture(recording.platform.values[at_platform], recording.base.values[at_base])
-    fallen = (height < FALLEN_HEIGHT) | (tilt > FALLEN_TILT)
-    return (int(stamps[np.argmax(fallen)]) if np.any(fallen) else None,
-            float(np.min(height)), float(np.max(tilt)))
+    fallen = list(stamps[(height < FALLEN_HEIGHT) | (tilt > FALLEN_TILT)])
+    fallen += [contact.stamp for contact in recording.contacts if contact.links == LYING]
+    return int(min(fallen)) if fallen else None, float(np.min(height)), float(np.max(tilt))
 
 
 def _tracking_statistics(recording, stamps, lateral):

@@ -14,7 +14,7 @@ from prf_experiments import connections, digest, recording, session
 PLAYER = "/usr/lib/rosbag/play"
 PLAYED = ["clock"] + recording.SENSORS
 COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
-FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "demonstration"]
+FRAMEWORK_ARGUMENTS = ["planner", "framework", "demonstration"]
 
 
 @contextlib.contextmanager

@@ -24,7 +24,6 @@ def trial_arguments():
                            meaning="how the platform moves"),
         "gait": argument("stand", **args.choice("stand"), meaning="what the legs do"),
         "planner": argument("elte", **args.choice("elte"), meaning="how the skill is adapted"),
-        "predictor": argument("ukf", **args.choice("ukf"), meaning="how the target is predicted"),
         "framework": argument(True, **args.boolean(),
                               meaning="false: adapt once, to the first sight, execute blindly"),
         "seed": argument(1, **args.integer(0, 2**31 - 1), meaning="of every random draw"),
@@ -39,7 +38,7 @@ def trial_arguments():
     }
 
 
-IN_NAME = ["motion", "gait", "planner", "predictor", "framework", "seed"]
+IN_NAME = ["motion", "gait", "planner", "framework", "seed"]
 LAUNCHED = IN_NAME + ["time_limit", "real_time_factor", "demonstration"]
 
 

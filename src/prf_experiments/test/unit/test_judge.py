@@ -101,7 +101,7 @@ class Contacts(unittest.TestCase):
 
     def test_counts_for_every_link_of_arm_hand_and_camera(self):
         for link in ("j2s7s300_link_2", "j2s7s300_link_finger_tip_1", "camera_link"):
-            for other in ("box_back", "post", "panel", "platform", "base_link", "fl_upper"):
+            for other in ("box_back", "post", "panel", "platform", "body", "fl_upper"):
                 data = with_contact(5.0, (link, other))
                 self.assertEqual(judge.judge(data).verdict, "P", (link, other))
 
@@ -111,7 +111,8 @@ class Contacts(unittest.TestCase):
         self.assertEqual(verdict.figures["largest_contact_n"], 0.0)
 
     def test_bolt_of_the_arm_and_links_of_one_arm_do_not_count(self):
-        for pair in (("base_link", "j2s7s300_link_base"), ("j2s7s300_link_1", "j2s7s300_link_4")):
+        for pair in (("body", "j2s7s300_link_base"), ("j2s7s300_link_1", "j2s7s300_link_4"),
+                     ("camera_link", PALM)):
             self.assertEqual(judge.judge(with_contact(9.0, pair)).verdict, "S", pair)
 
     def test_largest_force_of_each_pair_is_reported(self):
@@ -174,6 +175,15 @@ class Failures(unittest.TestCase):
         data.platform.values[:] = tilted
         data.base.values[:] = geometry.compose(tilted, synthetic.BASE)
         self.assertEqual(judge.judge(data).verdict, "S")
+
+    def test_body_on_the_deck_has_fallen(self):
+        data = with_contact(2.0, ("body", "platform"))
+        self.assertIn("fell at 3.00 s", judge.judge(data).reason)
+
+    def test_a_fall_ends_the_trial_early_and_is_evidence(self):
+        data = self.base_at(0.2, 0.0)
+        data.progress.states[:] = judge.STATES.index("FORWARD")
+        self.assertEqual(judge.judge(data).verdict, "F")
 
     def test_stopping_for_an_error_fails_though_reached(self):
         data = synthetic.make_recording(state="STOPPED")

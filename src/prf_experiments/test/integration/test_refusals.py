@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad input and interruptions: one clear line, a non-zero exit, nothing left running."""
+import glob
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+import runs  # noqa: E402
+from prf_experiments import session  # noqa: E402
+
+SKILL = session.packaged("demonstrations", "inspect_box.csv")
+
+
+class Refusals(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = folder.name
+
+    def refused(self, *words, one_line=True):
+        run = runs.run("run_trial", f"results:={self.results}", *words)
+        self.assertNotEqual(run.code, 0, run.out)
+        self.assertEqual(run.out, "")
+        self.assertNotIn("Traceback", run.error)
+        if one_line:
+            self.assertEqual(run.error.count("\n"), 1, run.error)
+        self.assertEqual(os.listdir(self.results), [])
+        self.assertEqual(runs.processes_of(self.results), [])
+        return run.error
+
+    def skill(self, edit):
+        with open(SKILL, encoding="utf-8") as stream:
+            lines = stream.read().splitlines()
+        path = os.path.join(tempfile.mkdtemp(), "skill.csv")
+        self.addCleanup(shutil.rmtree, os.path.dirname(path))
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write("\n".join(edit(lines)) + "\n")
+        return path
+
+    def test_arguments_that_are_not_valid_bring_the_list_of_those_that_are(self):
+        for word, words in (("motion:=wild", "none|light|heavy"), ("gait:=fly", "stand"),
+                            ("planner:=magic", "elte"), ("seed:=x", "integer"),
+                            ("speed:=1", "unknown argument 'speed'"), ("motion", "name:=value")):
+            error = self.refused(word, one_line=False)
+            self.assertIn(words, error)
+            self.assertIn("demonstration:=", error)
+
+    def test_absent_demonstration(self):
+        self.assertIn("/absent.csv", self.refused("demonstration:=/absent.csv"))
+
+    def test_demonstration_that_is_too_short(self):
+        path = self.skill(lambda lines: lines[:8])
+        self.assertIn("at least", self.refused(f"demonstration:={path}"))
+
+    def test_demonstration_that_is_not_finite(self):
+        path = self.skill(lambda lines: lines[:-1] + [lines[-1].rpartition(",")[0] + ",nan"])
+        self.assertIn("not finite", self.refused(f"demonstration:={path}"))
+
+    def test_results_folder_that_is_a_file(self):
+        run = runs.run("run_trial", f"results:={SKILL}")
+        self.assertEqual(run.code, 1)
+        self.assertEqual(run.error.count("\n"), 1, run.error)
+        self.assertIn("cannot be written", run.error)
+
+    def test_results_folder_in_a_place_that_takes_no_folders(self):
+        run = runs.run("run_trial", "results:=/proc/results")
+        self.assertEqual(run.code, 1)
+        self.assertEqual(run.error.count("\n"), 1, run.error)
+
+
+class Interruptions(unittest.TestCase):
+    def interrupted(self, number):
+        with tempfile.TemporaryDirectory() as results:
+            process = runs.start("run_trial", f"results:={results}")
+            try:
+                bag = os.path.join(results, "*", "trial.bag.active")
+                end = time.monotonic() + 60.0
+                while not glob.glob(bag) and time.monotonic() < end and process.poll() is None:
+                    time.sleep(0.1)
+                time.sleep(1.0)
+                self.assertIsNone(process.poll(), "ended by itself")
+                self.assertGreater(len(runs.processes_of(results)), 8)
+                process.send_signal(number)
+            finally:
+                run = runs.finish(process)
+            self.assertEqual(run.code, 128 + number, run.error)
+            self.assertIn(f"stopped by {number.name}", run.error)
+            self.assertNotIn("Traceback", run.error)
+            self.assertEqual(runs.processes_of(results), [])
+
+    def test_interrupt_leaves_no_process(self):
+        self.interrupted(signal.SIGINT)
+
+    def test_termination_leaves_no_process(self):
+        self.interrupted(signal.SIGTERM)
+
+    def test_kill_leaves_no_process(self):
+        with tempfile.TemporaryDirectory() as results:
+            process = runs.start("run_trial", f"results:={results}")
+            while not glob.glob(os.path.join(results, "*", "trial.bag.active")):
+                self.assertIsNone(process.poll(), "ended by itself")
+                time.sleep(0.1)
+            process.kill()
+            process.communicate()
+            end = time.monotonic() + 60.0
+            while runs.processes_of(results) and time.monotonic() < end:
+                time.sleep(0.2)
+            self.assertEqual(runs.processes_of(results), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

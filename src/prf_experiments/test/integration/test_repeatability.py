@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One seed, one outcome; and the framework alone answers a bag as it answered the simulator."""
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+import runs  # noqa: E402
+from prf_experiments import digest, recording  # noqa: E402
+
+SECONDS = 12.0  # enough for every node to work; too short for a verdict
+CUT_SHORT = 3  # exit code of run_trial for that
+
+
+class Repeatability(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.results = cls._folder.name
+        cls.bag = cls.trial(1)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    @classmethod
+    def trial(cls, seed):
+        run = runs.run("run_trial", "motion:=light", f"seed:={seed}", f"time_limit:={SECONDS}",
+                       f"results:={cls.results}")
+        if run.code != CUT_SHORT or "before its time" not in run.out:
+            raise AssertionError(run.out + run.error)
+        return os.path.join(run.folder, "trial.bag")
+
+    def test_a_second_run_with_the_seed_gives_the_same_messages(self):
+        ours, theirs = digest.digests(self.bag), digest.digests(self.trial(1))
+        self.assertEqual(digest.differences(ours, theirs), [])
+        for topic in recording.SENSORS + recording.OUTPUTS:
+            self.assertTrue(any(name == "/" + topic for name, _ in ours), topic)
+
+    def test_another_seed_gives_other_images(self):
+        ours, theirs = (digest.digests(bag, ["/camera/image_raw"])
+                        for bag in (self.bag, self.trial(2)))
+        self.assertNotEqual(ours, theirs)
+
+    def test_replay_gives_the_same_answers(self):
+        result = os.path.join(self.results, "replay.json")
+        run = runs.run("replay", self.bag, "--json", result)
+        self.assertEqual(run.code, 0, run.out + run.error)
+        with open(result, encoding="utf-8") as stream:
+            content = json.load(stream)
+        self.assertTrue(content["identical"])
+        self.assertGreater(content["compared_messages"], 4 * 100 * SECONDS)
+
+
+if __name__ == "__main__":
+    unittest.main()
