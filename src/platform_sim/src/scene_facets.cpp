@@ -70,10 +70,8 @@ std::vector<Body> platform_bodies(const TargetBox& target) {
   };
   const std::vector<Cuboid> walls = target.walls();
   const double outside = half.z() + target.wall_thickness;
-  const Cuboid deck{Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.05)),
-                    Vector3d(2.4, 1.8, 0.1)};
   return {
-      make_body(deck, kDeckAlbedo, {Vector3d::UnitZ(), Vector3d::Zero()}),
+      make_body(deck(), kDeckAlbedo, {Vector3d::UnitZ(), Vector3d::Zero()}),
       make_body(target.post(), kPostAlbedo, plane_of_box(-Vector3d::UnitZ(), outside)),
       make_body(walls[0], kBoxAlbedo, plane_of_box(Vector3d::UnitX(), half.x())),
       make_body(walls[1], kBoxAlbedo, plane_of_box(Vector3d::UnitY(), half.y())),

@@ -18,6 +18,11 @@ class TagTexture {
   // Modules along one side of the black border: what "tag size" measures.
   [[nodiscard]] int black_side() const { return side_ - 2; }
 
+  // Grey level of the module in column u and row v.
+  [[nodiscard]] unsigned char at(int u, int v) const {
+    return greys_[static_cast<std::size_t>(v * side_ + u)];
+  }
+
   // Mean over the pixel [x, x+1) x [y, y+1); `to_modules` maps homogeneous pixel to module
   // coordinates. Points outside the tag count as its border.
   [[nodiscard]] unsigned char mean_over_pixel(const Eigen::Matrix3d& to_modules, double x,
@@ -27,9 +32,6 @@ class TagTexture {
   // Row or column of a module coordinate.
   [[nodiscard]] int index(double module) const {
     return std::clamp(static_cast<int>(module), 0, side_ - 1);
-  }
-  [[nodiscard]] unsigned char at(int u, int v) const {
-    return greys_[static_cast<std::size_t>(v * side_ + u)];
   }
 
   int side_ = 0;

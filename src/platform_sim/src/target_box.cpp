@@ -20,7 +20,11 @@ Cuboid cuboid_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
   return cuboid;
 }
 
+const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);  // m
+
 }  // namespace
+
+Cuboid deck() { return cuboid_at({0.0, 0.0, -0.5 * kDeckSize.z()}, kDeckSize); }
 
 void TargetBox::validate() const {
   if (!tag_position_in_platform.allFinite()) {

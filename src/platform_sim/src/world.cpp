@@ -15,7 +15,6 @@ namespace platform_sim {
 namespace {
 
 constexpr double kSettlingTime = 2.0;            // s
-const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);  // m
 constexpr double kFallenHeight = 0.30;           // m, base over the deck
 constexpr double kFallenTilt = 0.7;              // rad
 
@@ -57,13 +56,6 @@ std::vector<CuboidBody::Part> to_parts(const std::vector<Cuboid>& cuboids) {
   std::vector<CuboidBody::Part> parts;
   for (const Cuboid& cuboid : cuboids) parts.emplace_back(cuboid.pose_in_platform, cuboid.size);
   return parts;
-}
-
-Cuboid deck_cuboid() {
-  Cuboid deck;
-  deck.pose_in_platform.translation().z() = -0.5 * kDeckSize.z();
-  deck.size = kDeckSize;
-  return deck;
 }
 
 void require_finite(const std::string& name, double value) {
@@ -136,7 +128,7 @@ class World::Impl {
 World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     : motion_(config.motion, config.seed),
       target_(config.target),
-      deck_(scene_, "platform", to_parts({deck_cuboid()}), 0.0, {kDeck, ~kSurroundings},
+      deck_(scene_, "platform", to_parts({deck()}), 0.0, {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
       box_(scene_, "box", to_parts(target_.walls()), 0.0, {kTarget, ~kSurroundings},
            motion_.deck(0.0).pose),

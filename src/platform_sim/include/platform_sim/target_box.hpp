@@ -12,6 +12,9 @@ struct Cuboid {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
+/// Deck of the platform: its surface is the plane z = 0 of the platform frame.
+[[nodiscard]] Cuboid deck();
+
 /// Open box on a post, fixed to the platform. It opens toward platform -x; a tag is on the inside
 /// of its back wall, its face toward the opening. Platform frame: centre of the deck's surface,
 /// x forward, z up. Tag frame: origin at the tag's centre, x right, y up, z out of the printed

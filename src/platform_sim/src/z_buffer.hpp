@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+#include "platform_sim/camera_renderer.hpp"
+#include "triangle_mesh.hpp"
+
+namespace platform_sim {
+
+using Colour = Eigen::Vector3d;  // red, green, blue in 0..1
+
+// Image of triangles with hidden surfaces removed by depth.
+class ZBuffer {
+ public:
+  // The image is kOversampling times as fine as the camera's until finish().
+  ZBuffer(const PinholeCamera& camera, const Colour& background);
+
+  // A triangle in the optical frame; left out if seen from behind or not wholly in front.
+  void draw(const Triangle& triangle, const Colour& colour);
+  // BGR, averaged down to the camera's resolution.
+  [[nodiscard]] cv::Mat finish() const;
+
+ private:
+  static constexpr int kOversampling = 3;
+
+  PinholeCamera camera_;  // of the fine image
+  cv::Mat inverse_depth_;
+  cv::Mat image_;
+};
+
+}  // namespace platform_sim
