@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elte_planner/elte_skill_planner.hpp"
 
+#include <utility>
+
 namespace elte_planner {
 
-ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights)
-    : demonstration_(demonstration), weights_(weights), solver_(demonstration, weights) {}
+ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
+                                   std::string name)
+    : demonstration_(demonstration),
+      weights_(weights),
+      name_(std::move(name)),
+      solver_(demonstration, weights) {}
 
 PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
   validate_request(request, demonstration_);

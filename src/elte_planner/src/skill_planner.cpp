@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "elte_planner/dmp_skill_planner.hpp"
+#include "elte_planner/elastic_map_skill_planner.hpp"
 #include "elte_planner/elte_skill_planner.hpp"
 
 namespace elte_planner {
@@ -46,7 +48,16 @@ std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
                                                  const Eigen::MatrixXd& demonstration,
                                                  const ElteWeights& weights) {
   if (name == "elte") return std::make_unique<ElteSkillPlanner>(demonstration, weights);
-  throw std::invalid_argument("planner is '" + name + "', must be one of: elte");
+  if (name == "lte") {
+    const ElteWeights shape_only{0.0, 0.0, Laplacian::kRowNormalised};
+    return std::make_unique<ElteSkillPlanner>(demonstration, shape_only, "lte");
+  }
+  if (name == "elastic_map") {
+    return std::make_unique<ElasticMapSkillPlanner>(demonstration, weights);
+  }
+  if (name == "dmp") return std::make_unique<DmpSkillPlanner>(demonstration);
+  throw std::invalid_argument("planner is '" + name +
+                              "', must be one of: elte, lte, elastic_map, dmp");
 }
 
 }  // namespace elte_planner

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Dynamic movement primitive as the rival (Pastor, Hoffmann, Asfour, Schaal 2009), per dimension:
+//
+//   v' = K (g - x) - D v - K (g - x0) s + K f(s),   x' = v,   s' = -alpha s
+//   f(s) = s sum_i psi_i(s) w_i / sum_i psi_i(s),   psi_i(s) = exp(-h_i (s - c_i)^2)
+//
+// over the unit interval, the demonstration's nodes taken as equally spaced in it. The weights are
+// fitted to the demonstration by locally weighted regression. A plan goes on from the last frozen
+// node with its velocity and the changed goal; the goal is approached, not met.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "elte_planner/skill_planner.hpp"
+
+namespace elte_planner {
+
+struct DmpParams {
+  int basis_functions = 20;
+  double stiffness = 120.0;        // K
+  double damping = 40.0;           // D
+  double phase_decay = 4.6051702;  // alpha: the phase ends at 0.01
+  double activation = 0.1;         // of a basis function at its neighbour's centre
+
+  void validate() const;  // throws std::invalid_argument
+};
+
+class DmpSkillPlanner : public SkillPlanner {
+ public:
+  explicit DmpSkillPlanner(const Eigen::MatrixXd& demonstration, const DmpParams& params = {});
+
+  std::string name() const override { return "dmp"; }
+
+  // Relaxed, with the slack, when the end stays outside the ball.
+  [[nodiscard]] PlanResult plan(const PlanRequest& request) const override;
+
+ private:
+  void fit();
+  Eigen::VectorXd activations(double phase) const;
+
+  Eigen::MatrixXd demonstration_;
+  DmpParams params_;
+  Eigen::VectorXd centres_;
+  Eigen::VectorXd widths_;
+  Eigen::MatrixXd weights_;  // basis functions x dimensions
+};
+
+}  // namespace elte_planner
