@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "elte_planner/confidence_radius.hpp"
+#include "elte_planner/demonstration.hpp"
+#include "elte_planner/edit_problem.hpp"
+#include "elte_planner/elte_energy.hpp"
+#include "elte_planner/endpoint_solver.hpp"
+#include "elte_planner/skill_planner.hpp"
+
+namespace py = pybind11;
+
+namespace elte_planner {
+namespace {
+
+ElteWeights weights_from(double elastic, double bending, const std::string& laplacian) {
+  ElteWeights weights{elastic, bending, Laplacian::kFreeEnds};
+  if (laplacian == "row_normalised") {
+    weights.laplacian = Laplacian::kRowNormalised;
+  } else if (laplacian != "free_ends") {
+    throw std::invalid_argument("laplacian is '" + laplacian +
+                                "', must be 'free_ends' or 'row_normalised'");
+  }
+  weights.validate();
+  return weights;
+}
+
+const char* name_of(EditStatus status) {
+  switch (status) {
+    case EditStatus::kSolved:
+      return "solved";
+    case EditStatus::kInfeasible:
+      return "infeasible";
+    case EditStatus::kIllPosed:
+      return "ill_posed";
+    case EditStatus::kIterationLimit:
+      break;
+  }
+  return "iteration_limit";
+}
+
+const char* name_of(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kSolved:
+      return "solved";
+    case PlanStatus::kRelaxed:
+      return "relaxed";
+    case PlanStatus::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+EditSolution edit(const Eigen::MatrixXd& zeta, const std::vector<PointConstraint>& constraints,
+                  const std::optional<Eigen::MatrixXd>& fixed, double w_elastic, double w_bending,
+                  const std::string& laplacian, double max_step, double max_first_step) {
+  EditProblem problem;
+  problem.zeta = zeta;
+  problem.weights = weights_from(w_elastic, w_bending, laplacian);
+  problem.fixed = fixed.value_or(Eigen::MatrixXd(0, zeta.cols()));
+  problem.constraints = constraints;
+  problem.max_step = max_step;
+  problem.max_first_step = max_first_step;
+  return solve(problem);
+}
+
+void bind_solver(py::module_& m) {
+  py::class_<PointConstraint>(m, "PointConstraint",
+                              "A constraint on one node; see ball, box, equality.")
+      .def_readonly("node", &PointConstraint::node)
+      .def_readonly("centre", &PointConstraint::centre);
+  m.def("ball", &PointConstraint::ball, py::arg("node"), py::arg("centre"), py::arg("radius"),
+        "|y[node] - centre|_1 <= radius. centre: (d,). radius 0 is an equality.");
+  m.def(
+      "box", &PointConstraint::box, py::arg("node"), py::arg("centre"), py::arg("half_widths"),
+      "|y[node] - centre| <= half_widths, per dimension. centre, half_widths: (d,), inf is free.");
+  m.def("equality", &PointConstraint::equality, py::arg("node"), py::arg("point"),
+        "y[node] = point. point: (d,).");
+
+  py::class_<EditSolution>(m, "Solution", "What solve() found.")
+      .def_property_readonly(
+          "status", [](const EditSolution& s) { return name_of(s.status); },
+          "'solved', 'infeasible', 'ill_posed' or 'iteration_limit'.")
+      .def_readonly("message", &EditSolution::message, "Why it is not solved, one line.")
+      .def_readonly("y", &EditSolution::y, "Edited trajectory, (T, d); empty unless solved.")
+      .def_readonly("energy", &EditSolution::energy, "J(y).")
+      .def_readonly("kkt_residual", &EditSolution::kkt_residual,
+                    "Largest violation of the optimality conditions.")
+      .def_readonly("forces", &EditSolution::forces,
+                    "(constraints, d); the gradient of J is minus their sum per node.")
+      .def_readonly("active", &EditSolution::active, "Indices of the active constraints.")
+      .def_readonly("iterations", &EditSolution::iterations);
+
+  m.def("solve", &edit, py::arg("zeta"), py::arg("constraints") = std::vector<PointConstraint>{},
+        py::arg("fixed") = py::none(), py::kw_only(), py::arg("w_elastic") = 0.001,
+        py::arg("w_bending") = 0.001, py::arg("laplacian") = "free_ends",
+        py::arg("max_step") = std::numeric_limits<double>::infinity(),
+        py::arg("max_first_step") = std::numeric_limits<double>::infinity(),
+        "Minimise |L(y-zeta)|^2 + w_elastic |Ey|^2 + w_bending |Ry|^2 under the constraints.\n\n"
+        "zeta: (T, d) demonstration, T >= 3. fixed: (k, d) first rows of y. max_step and\n"
+        "max_first_step bound the l1 norm of the steps between nodes. Raises ValueError for an\n"
+        "invalid problem; an infeasible one is a status.");
+}
+
+void bind_endpoint_solver(py::module_& m) {
+  py::class_<EndpointSolver>(m, "EndpointSolver",
+                             "One l1 ball on the last node, in closed form, gains built once.")
+      .def(py::init([](const Eigen::MatrixXd& zeta, double w_elastic, double w_bending,
+                       const std::string& laplacian) {
+             return EndpointSolver(zeta, weights_from(w_elastic, w_bending, laplacian));
+           }),
+           py::arg("zeta"), py::kw_only(), py::arg("w_elastic") = 0.001,
+           py::arg("w_bending") = 0.001, py::arg("laplacian") = "free_ends")
+      .def(
+          "solve",
+          [](const EndpointSolver& solver, Eigen::MatrixXd plan, Eigen::Index executed,
+             const Eigen::VectorXd& goal, double radius) {
+            solver.solve(executed, goal, radius, plan);
+            return plan;
+          },
+          py::arg("previous"), py::arg("executed"), py::arg("goal"), py::arg("radius") = 0.0,
+          "The plan (T, d): rows [0, executed) as in previous, executed >= 2, the last row within\n"
+          "radius of goal (d,).");
+}
+
+void bind_planners(py::module_& m) {
+  m.def(
+      "plan",
+      [](const std::string& planner, const Eigen::MatrixXd& zeta, const Eigen::MatrixXd& previous,
+         Eigen::Index executed, const Eigen::VectorXd& goal, double radius, double w_elastic,
+         double w_bending) {
+        const PlanResult result =
+            make_skill_planner(planner, zeta, weights_from(w_elastic, w_bending, "free_ends"))
+                ->plan({previous, executed, goal, radius});
+        return py::make_tuple(result.positions, name_of(result.status), result.slack);
+      },
+      py::arg("planner"), py::arg("zeta"), py::arg("previous"), py::arg("executed"),
+      py::arg("goal"), py::arg("radius") = 0.0, py::kw_only(), py::arg("w_elastic") = 0.001,
+      py::arg("w_bending") = 0.001,
+      "(y, status, slack) of planner 'elte', 'lte', 'elastic_map' or 'dmp'; y is (T, d).");
+}
+
+void bind_demonstration(py::module_& m) {
+  py::class_<Demonstration>(m, "Demonstration", "Timed poses of a demonstrated skill.")
+      .def_property_readonly("frame", &Demonstration::frame)
+      .def_property_readonly("child_frame", &Demonstration::child_frame)
+      .def_property_readonly("positions", &Demonstration::positions, "(N, 3), m.")
+      .def_property_readonly(
+          "times",
+          [](const Demonstration& demonstration) {
+            const auto& samples = demonstration.samples();
+            Eigen::VectorXd times(static_cast<Eigen::Index>(samples.size()));
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+              times[static_cast<Eigen::Index>(i)] = samples[i].time;
+            }
+            return times;
+          },
+          "(N,), s from the start.")
+      .def_property_readonly(
+          "quaternions",
+          [](const Demonstration& demonstration) {
+            const auto& samples = demonstration.samples();
+            Eigen::MatrixXd result(static_cast<Eigen::Index>(samples.size()), 4);
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+              result.row(static_cast<Eigen::Index>(i)) =
+                  samples[i].pose.orientation.coeffs().transpose();
+            }
+            return result;
+          },
+          "(N, 4), x y z w.")
+      .def("resampled_by_arc_length", &Demonstration::resampled_by_arc_length, py::arg("nodes"));
+  m.def("load_demonstration", &load_demonstration, py::arg("path"),
+        "Read the CSV form; raises ValueError with file, line, column, value and bound.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(elte_planner, m) {
+  m.doc() = "Elastic Laplacian trajectory editing: numpy in, numpy out. Rows are nodes.";
+  bind_solver(m);
+  bind_endpoint_solver(m);
+  bind_planners(m);
+  bind_demonstration(m);
+  m.def("confidence_radius", &confidence_radius, py::arg("covariance"), py::arg("probability"),
+        "Radius of the smallest l1 ball that holds the probability; covariance (d, d), d <= 3.");
+  m.def(
+      "shape_loss",
+      [](const Eigen::MatrixXd& zeta, double w_elastic, double w_bending) {
+        return shape_loss(zeta, weights_from(w_elastic, w_bending, "free_ends"));
+      },
+      py::arg("zeta"), py::kw_only(), py::arg("w_elastic") = 0.001, py::arg("w_bending") = 0.001,
+      "How much of the shape the weights cost without any editing: 0 none, 1 a straight line.");
+}
+
+}  // namespace elte_planner

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python module and the command elte_edit."""
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+import elte_planner
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+COMMAND = os.path.join(HERE, "..", "scripts", "elte_edit")
+DEMONSTRATION = os.path.join(HERE, "reach.csv")
+
+
+def arc(nodes=40):
+    s = np.linspace(0.0, np.pi, nodes)
+    return np.column_stack([np.cos(s), np.sin(s)])
+
+
+class Module(unittest.TestCase):
+    def test_solve_keeps_fixed_rows_and_meets_constraints(self):
+        zeta = arc()
+        constraints = [
+            elte_planner.equality(39, np.array([-1.1, 0.2])),
+            elte_planner.ball(20, np.array([0.0, 1.3]), 0.1),
+            elte_planner.box(30, np.array([-0.5, 0.5]), np.array([np.inf, 0.01])),
+        ]
+        solution = elte_planner.solve(zeta, constraints, zeta[:5])
+        self.assertEqual(solution.status, "solved")
+        np.testing.assert_array_equal(solution.y[:5], zeta[:5])
+        np.testing.assert_array_equal(solution.y[39], [-1.1, 0.2])
+        self.assertLessEqual(np.abs(solution.y[20] - [0.0, 1.3]).sum(), 0.1 + 1e-12)
+        self.assertLessEqual(abs(solution.y[30, 1] - 0.5), 0.01 + 1e-12)
+        self.assertLess(solution.kkt_residual, 1e-13)
+        self.assertEqual(solution.forces.shape, (3, 2))
+
+    def test_infeasible_is_a_status_and_invalid_a_value_error(self):
+        points = [elte_planner.equality(39, np.array([x, 0.0])) for x in (0.0, 1.0)]
+        solution = elte_planner.solve(arc(), points, arc()[:2])
+        self.assertEqual(solution.status, "infeasible")
+        self.assertIn("constraint 1", solution.message)
+        with self.assertRaisesRegex(ValueError, "node 40"):
+            elte_planner.solve(arc(), [elte_planner.ball(40, np.zeros(2), 0.1)])
+
+    def test_endpoint_solver_agrees_with_the_general_one(self):
+        zeta = arc()
+        goal = np.array([-1.2, 0.1])
+        closed = elte_planner.EndpointSolver(zeta).solve(zeta, 10, goal, 0.05)
+        general = elte_planner.solve(zeta, [elte_planner.ball(39, goal, 0.05)], zeta[:10]).y
+        np.testing.assert_allclose(closed, general, atol=1e-13)
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_command(self, *arguments):
+        return subprocess.run(["/usr/bin/python3", COMMAND, *arguments], text=True, timeout=60,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+
+    def test_writes_plan_and_plot(self):
+        run = self.run_command(DEMONSTRATION, "--end", "0.5", "0.1", "0.5", "--radius", "0.02",
+                               "--executed", "20", "--out", self.path("plan.csv"),
+                               "--plot", self.path("plan.png"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        plan = np.loadtxt(self.path("plan.csv"), delimiter=",", skiprows=1)
+        self.assertEqual(plan.shape, (50, 4))
+        self.assertLessEqual(np.abs(plan[-1, 1:] - [0.5, 0.1, 0.5]).sum(), 0.02 + 1e-12)
+        self.assertGreater(os.path.getsize(self.path("plan.png")), 5000)
+
+    def test_solves_one_or_many_problems(self):
+        problem = {"name": "arc", "zeta": arc().tolist(), "wE": 0.001, "wR": 0.001,
+                   "laplacian": "row_normalised", "n_fixed": 2, "y_fixed": arc()[:2].tolist(),
+                   "constraints": [{"j": 39, "p": [-1.1, 0.0], "r": 0.0}]}
+        for content, many in ((problem, False), ([problem, problem], True)):
+            with open(self.path("problem.json"), "w", encoding="utf-8") as file:
+                json.dump(content, file)
+            run = self.run_command("--problem", self.path("problem.json"),
+                                   "--out", self.path("solution.json"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(self.path("solution.json"), encoding="utf-8") as file:
+                answer = json.load(file)
+            solution = answer["problems"][1] if many else answer
+            self.assertEqual(solution["status"], "solved")
+            self.assertEqual(solution["y"][39], [-1.1, 0.0])
+
+    def refuse(self, expected, *arguments):
+        run = self.run_command(*arguments)
+        self.assertEqual(run.returncode, 2, run.stdout)
+        self.assertIn(expected, run.stderr.splitlines()[-1])
+
+    def test_refuses_bad_input_with_one_line_and_exit_code_2(self):
+        self.refuse("cannot be read", self.path("none.csv"))
+        self.refuse("executed", DEMONSTRATION, "--executed", "x")
+        self.refuse("frozen is 51", DEMONSTRATION, "--executed", "51")
+        self.refuse("radius is -1", DEMONSTRATION, "--radius", "-1")
+        self.refuse("goal", DEMONSTRATION, "--end", "nan", "0", "0")
+        self.refuse("nodes is 2", DEMONSTRATION, "--nodes", "2")
+        self.refuse("planner is 'x'", DEMONSTRATION, "--planner", "x")
+        self.refuse("either")
+        bad = [
+            ("null", "a problem must be an object"), ("{", "Expecting"), ("[1]", "must be an object"),
+            ('{"zeta": [[0]]}', "lacks 'wE'"),
+            ('{"zeta": [[0],[1]], "wE": 0, "wR": 0}', "at least 3"),
+            ('{"zeta": [[0],[1,2],[3]], "wE": 0, "wR": 0}', ""),
+            ('{"zeta": [[0],[1],[NaN]], "wE": 0, "wR": 0}', "not finite"),
+            ('{"zeta": [[0],[1],[2]], "wE": -1, "wR": 0}', "w_elastic"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "n_fixed": 1}', "n_fixed is 1"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "laplacian": "x"}', "laplacian is 'x'"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "constraints": [{"j": 1}]}', "lacks 'p'"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "constraints": [{"j": 9, "p": [0], "r": 0}]}',
+             "node 9"),
+        ]
+        for text, expected in bad:
+            with open(self.path("bad.json"), "w", encoding="utf-8") as file:
+                file.write(text)
+            self.refuse(expected, "--problem", self.path("bad.json"))
+
+
+if __name__ == "__main__":
+    unittest.main()
