@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The frames of a URDF's links, each in its parent link.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace jaco_v60_description {
+
+struct LinkFrame {
+  std::string parent;
+  std::string child;
+  Eigen::Isometry3d child_in_parent;
+};
+
+class FrameTree {
+ public:
+  // Throws std::invalid_argument if the text is no URDF or has a joint other than fixed, revolute,
+  // continuous and prismatic.
+  explicit FrameTree(const std::string& urdf);
+
+  // Links behind fixed joints, in alphabetical order of the joints.
+  [[nodiscard]] const std::vector<LinkFrame>& fixed() const { return fixed_; }
+
+  // Links behind the joints named, in the order given. Names of no moving joint of the model and
+  // positions that are not finite are left out.
+  [[nodiscard]] std::vector<LinkFrame> moving(const std::vector<std::string>& names,
+                                              const std::vector<double>& positions) const;
+
+ private:
+  struct MovingJoint {
+    LinkFrame at_zero;
+    Eigen::Vector3d axis;  // unit, in the child
+    bool prismatic;
+  };
+
+  std::vector<LinkFrame> fixed_;
+  std::unordered_map<std::string, MovingJoint> joints_;
+};
+
+}  // namespace jaco_v60_description
