@@ -14,9 +14,18 @@ import sys
 import threading
 import time
 
-RECORDER = "/usr/lib/rosbag/record"
+import roslib.packages
+
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
+
+
+def executable(package, name):
+    """Path of a package's program, as rosrun finds it."""
+    found = roslib.packages.find_node(package, name)
+    if not found:
+        raise ProcessError(f"{package} has no program {name}: is it built?")
+    return found[0]
 
 
 class ProcessError(Exception):
@@ -136,18 +145,17 @@ def _end_with_parent():
 
 
 class Recorder:
-    """`rosbag record` of an explicit list of topics into one LZ4 bag."""
+    """The recorder of an explicit list of topics into one LZ4 bag."""
 
     MIN_FREE = 100 * 1024**2  # bytes; below, the disk counts as full
 
     def __init__(self, bag, topics, log_file, name="recorder"):
         self.bag = bag
-        self.name = "/" + name
         self._log_file = log_file
         with open(log_file, "w", encoding="utf-8") as log:
             self._process = subprocess.Popen(
-                [RECORDER, "--lz4", "--tcpnodelay", "--buffsize=1024", "--min-space=50M",
-                 "-O", bag, *("/" + topic for topic in topics), f"__name:={name}"],
+                [executable("prf_experiments", "recorder_node"), bag,
+                 *("/" + topic for topic in topics), f"__name:={name}"],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
                 preexec_fn=_end_with_parent)
 

@@ -9,9 +9,8 @@ import tempfile
 import time
 
 from prf_experiments import arguments as args
-from prf_experiments import connections, digest, recording, session
+from prf_experiments import connections, digest, processes, recording, session
 
-PLAYER = "/usr/lib/rosbag/play"
 PLAYED = ["clock"] + recording.SENSORS
 COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
 FRAMEWORK_ARGUMENTS = ["planner", "framework", "demonstration"]
@@ -22,7 +21,7 @@ def player(bag, log_file, rate):
     """`rosbag play` of the sensor topics, paused before the first message."""
     with open(log_file, "w", encoding="utf-8") as log:
         process = subprocess.Popen(
-            [PLAYER, "--pause", "--queue=0", f"--rate={rate}", "--topics",
+            [processes.executable("rosbag", "play"), "--pause", "--queue=0", f"--rate={rate}", "--topics",
              *("/" + topic for topic in PLAYED), "--bags", bag, "__name:=player"],
             stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
     try:
