@@ -4,7 +4,8 @@
 //   limit_margin)^2
 // First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost.
 // It passes the shoulder's singularity, where the arm angle's branches exchange. If that does not
-// end close by within limits, the closed form is sampled on the feasible arcs of every branch.
+// end close by within limits, the closed form is sampled on the feasible arcs of every branch, and
+// the cheapest are refined.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -157,10 +158,10 @@ std::vector<Candidate> sample_arcs(const Eigen::Isometry3d& pose, const ElbowCir
   return candidates;
 }
 
-// The first candidates in order of cost that lead to a solution; of these the cheapest.
+// Of the first candidates that lead to a solution, the cheapest.
 std::optional<JointVector> best_solution(const Eigen::Isometry3d& pose, const Cost& cost,
                                          const std::vector<Candidate>& candidates) {
-  constexpr int kCompared = 2;
+  constexpr int kCompared = 4;
   std::optional<JointVector> best;
   int found = 0;
   for (const Candidate& candidate : candidates) {
@@ -221,7 +222,8 @@ IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const I
 
   const double seed_phi = seed_arm_angle(*circle, seed);
   for (const int samples : {1, 12}) {
-    const auto candidates = sample_arcs(target, *circle, seed_phi, cost, samples);
+    auto candidates = sample_arcs(target, *circle, seed_phi, cost, samples);
+    candidates.insert(candidates.begin(), {0.0, seed});
     const auto q = best_solution(target, cost, candidates);
     if (q) return result_of(IkStatus::kSolved, *q, target);
   }

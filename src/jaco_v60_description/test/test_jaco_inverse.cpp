@@ -63,6 +63,27 @@ TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   }
 }
 
+// The configuration the pose was made from is a solution, so the answer must not be farther.
+TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
+  constexpr int kPoses = 2000;
+  IkOptions options;
+  options.limit_weight = 0.0;
+  std::mt19937 generator(17);
+  std::uniform_real_distribution<> offset(-0.7, 0.7);
+  int nearest = 0;
+  for (int trial = 0; trial < kPoses; ++trial) {
+    const JointVector q = random_joints(&generator);
+    JointVector seed = q;
+    for (int i = 0; i < 7; ++i) seed[i] += offset(generator);
+    const IkResult result = inverse(forward(q), seed, options);
+    ASSERT_EQ(result.status, IkStatus::kSolved);
+    const double cost = (result.q - seed).cwiseAbs2().dot(options.weight);
+    if (cost < (q - seed).cwiseAbs2().dot(options.weight) + 1e-6) ++nearest;
+  }
+  RecordProperty("nearest", nearest);
+  EXPECT_GE(nearest, kPoses * 99 / 100);
+}
+
 TEST(JacoInverse, AnswersInTheSeedsTurn) {
   JointVector seed = ready_joints();
   for (int i : {0, 2, 4, 6}) seed[i] += 6.0 * M_PI;
