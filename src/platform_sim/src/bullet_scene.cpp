@@ -50,23 +50,19 @@ std::vector<ContactPoint> BulletScene::contact_points() const {
 }
 
 CuboidBody::CuboidBody(BulletScene& scene, std::string name, const std::vector<Part>& parts,
-                       double mass, const CollisionFilter& filter, const Eigen::Isometry3d& pose)
+                       const CollisionFilter& filter, const Eigen::Isometry3d& pose)
     : scene_(scene), label_{{std::move(name)}}, shape_(std::make_unique<btCompoundShape>()) {
   for (const auto& [part_pose, size] : parts) {
     boxes_.push_back(std::make_unique<btBoxShape>(to_bullet(Eigen::Vector3d(0.5 * size))));
     shape_->addChildShape(to_bullet(part_pose), boxes_.back().get());
   }
-  btVector3 inertia(0.0, 0.0, 0.0);
-  if (mass > 0.0) shape_->calculateLocalInertia(mass, inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape_.get(), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape_.get());
   info.m_startWorldTransform = to_bullet(pose);
   info.m_friction = 1.0;  // Bullet multiplies the two coefficients: the robot's decides
   body_ = std::make_unique<btRigidBody>(info);
   body_->setUserPointer(&label_);
   body_->setActivationState(DISABLE_DEACTIVATION);
-  if (mass == 0.0) {
-    body_->setCollisionFlags(body_->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-  }
+  body_->setCollisionFlags(body_->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
   scene_.world().addRigidBody(body_.get(), filter.group, filter.mask);
 }
 

@@ -47,21 +47,20 @@ class BulletScene {
   std::unique_ptr<btMultiBodyDynamicsWorld> world_;
 };
 
-/// Rigid body of cuboids. A kinematic one (mass 0) goes where it is put and carries what stands on
-/// it: Bullet derives its velocity from successive poses.
+/// Kinematic body of cuboids: goes where it is put and carries what stands on it. Bullet derives
+/// its velocity from successive poses.
 class CuboidBody {
  public:
   using Part = std::pair<Eigen::Isometry3d, Eigen::Vector3d>;  // pose in the body, edge lengths
 
-  CuboidBody(BulletScene& scene, std::string name, const std::vector<Part>& parts, double mass,
+  CuboidBody(BulletScene& scene, std::string name, const std::vector<Part>& parts,
              const CollisionFilter& filter, const Eigen::Isometry3d& pose);
   ~CuboidBody();
   CuboidBody(const CuboidBody&) = delete;
   CuboidBody& operator=(const CuboidBody&) = delete;
 
-  /// Pose at the end of the coming step; kinematic bodies only.
+  /// Pose at the end of the coming step.
   void move_to(const Eigen::Isometry3d& pose);
-  [[nodiscard]] btRigidBody& body() { return *body_; }
 
  private:
   BulletScene& scene_;

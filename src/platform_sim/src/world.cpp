@@ -14,9 +14,9 @@
 namespace platform_sim {
 namespace {
 
-constexpr double kSettlingTime = 2.0;            // s
-constexpr double kFallenHeight = 0.30;           // m, base over the deck
-constexpr double kFallenTilt = 0.7;              // rad
+constexpr double kSettlingTime = 2.0;   // s
+constexpr double kFallenHeight = 0.30;  // m, base over the deck
+constexpr double kFallenTilt = 0.7;     // rad
 
 // A stiff contact with damping: a rigid one creeps.
 constexpr double kFootStiffness = 1e5;  // N/m
@@ -128,11 +128,11 @@ class World::Impl {
 World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     : motion_(config.motion, config.seed),
       target_(config.target),
-      deck_(scene_, "platform", to_parts({deck()}), 0.0, {kDeck, ~kSurroundings},
+      deck_(scene_, "platform", to_parts({deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
-      box_(scene_, "box", to_parts(target_.walls()), 0.0, {kTarget, ~kSurroundings},
+      box_(scene_, "box", to_parts(target_.walls()), {kTarget, ~kSurroundings},
            motion_.deck(0.0).pose),
-      post_(scene_, "post", to_parts({target_.post()}), 0.0, {kTarget, ~kSurroundings},
+      post_(scene_, "post", to_parts({target_.post()}), {kTarget, ~kSurroundings},
             motion_.deck(0.0).pose),
       robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
              [&](const std::string& body) { return robot_surface(body, config.friction); }) {

@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "eigen_bullet.hpp"
+#include "multibody_from_urdf.hpp"
+#include "test_robots.hpp"
 
 namespace platform_sim {
 namespace {
@@ -20,23 +21,32 @@ Eigen::Isometry3d at(const Eigen::Vector3d& position) {
   return pose;
 }
 
-// A block of 10 kg on a deck that accelerates level along `direction`.
+const std::string kBlockUrdf =
+    "<robot name='b'><link name='block'>" +
+    inertial(10.0, "0 0 0", "ixx='0.083' ixy='0' ixz='0' iyy='0.083' iyz='0' izz='0.15'") +
+    "<collision><geometry><box size='0.3 0.3 0.1'/></geometry></collision></link></robot>";
+
+// A block of 10 kg, built as a robot without joints, on a deck that accelerates along `direction`.
 struct BlockOnDeck {
   BulletScene scene{kTimeStep};
-  CuboidBody deck{scene, "deck", {{Eigen::Isometry3d::Identity(), {6.0, 6.0, 0.1}}},
-                  0.0,   {1, 2}, at({0.0, 0.0, -0.05})};
-  CuboidBody block{scene, "block", {{Eigen::Isometry3d::Identity(), {0.3, 0.3, 0.1}}},
-                   10.0,  {2, 1},  at({0.0, 0.0, 0.05})};
+  CuboidBody deck{scene,
+                  "deck",
+                  {{Eigen::Isometry3d::Identity(), {6.0, 6.0, 0.1}}},
+                  {1, 2},
+                  at({0.0, 0.0, -0.05})};
+  RobotModel block{scene, kBlockUrdf, RobotModel::Base::kFloating, [](const std::string&) {
+                     return RobotSurface{"", {2, 1}, kFriction, 1e5, 3e3};
+                   }};
 
   BlockOnDeck() {
-    block.body().setFriction(kFriction);
-    block.body().setContactStiffnessAndDamping(1e5, 3e3);
+    block.set_base_pose(at({0.0, 0.0, 0.05}));
+    block.update_poses();
     for (int step = 0; step < 300; ++step) scene.step();
   }
 
-  // Distance that the block moves over the deck.
+  // Distance that the block stays behind the deck in 1 s.
   double slip(double acceleration, const Eigen::Vector3d& direction) {
-    const Eigen::Vector3d start = to_eigen(block.body().getWorldTransform()).translation();
+    const Eigen::Vector3d start = block.frame("block").pose.translation();
     double travel = 0.0;
     for (int step = 1; step <= 1000; ++step) {
       const double time = step * kTimeStep;
@@ -44,8 +54,7 @@ struct BlockOnDeck {
       deck.move_to(at(travel * direction + Eigen::Vector3d(0.0, 0.0, -0.05)));
       scene.step();
     }
-    const Eigen::Vector3d end = to_eigen(block.body().getWorldTransform()).translation();
-    return travel - (end - start).dot(direction);
+    return travel - (block.frame("block").pose.translation() - start).dot(direction);
   }
 };
 
