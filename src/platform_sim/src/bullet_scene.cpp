@@ -27,8 +27,6 @@ BulletScene::BulletScene(double time_step)
                                                         solver_.get(), configuration_.get())) {
   world_->setGravity(btVector3(0.0, 0.0, -kGravity));
   world_->getSolverInfo().m_numIterations = kSolverIterations;
-  // Without a second direction Bullet's multibody friction acts along one axis only.
-  world_->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 
 void BulletScene::step() { world_->stepSimulation(time_step_, 0); }
