@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 
 from prf_experiments import geometry, judge
 
-TRUE = {"color": "black", "linewidth": 1.4}
-MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": ".", "markersize": 2.5}
+TRUE = {"color": "black", "linewidth": 1.2}
+MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5, "alpha": 0.45,
+            "markeredgewidth": 0.0}
 PREDICTED = {"color": "#0072B2", "linewidth": 1.1, "linestyle": (0, (4, 2))}
-PLANNED = {"color": "#0072B2", "linewidth": 1.4, "linestyle": (0, (5, 2))}
+PLANNED = {"color": "#0072B2", "linewidth": 2.6, "linestyle": (0, (3, 2)), "alpha": 0.7}
 DEMONSTRATED = {"color": "#009E73", "linewidth": 1.4, "linestyle": (0, (1, 1.5))}
 BELIEFS = [("forward", {"color": "#009E73", "linestyle": "-"}),
            ("pause", {"color": "#E69F00", "linestyle": (0, (5, 2))}),
@@ -69,7 +70,7 @@ def target_over_time(recording, truth, measured, predicted, horizon):
     for axis, panel in enumerate(panels[:3]):
         _grid(panel)
         for (stamps, values), style, label in (
-                (truth, TRUE, "true"), (measured, MEASURED, "measured"),
+                (measured, MEASURED, "measured"), (truth, TRUE, "true"),
                 (predicted, PREDICTED, f"predicted {horizon:.2f} s before")):
             times, column = thin(recording.seconds(stamps), 1e3 * values[:, axis])
             panel.plot(times, column, label=label, **style)
@@ -77,7 +78,7 @@ def target_over_time(recording, truth, measured, predicted, horizon):
         low, high = np.nanmin(1e3 * truth[1][:, axis]), np.nanmax(1e3 * truth[1][:, axis])
         slack = max(5.0, 0.25 * (high - low))
         panel.set_ylim(low - slack, high + slack)
-    panels[0].legend(loc="upper right", fontsize=8, ncols=3, markerscale=3)
+    panels[0].legend(loc="upper right", fontsize=8, ncols=3)
     _grid(panels[3])
     for index, (name, style) in enumerate(BELIEFS):
         times, belief = thin(recording.seconds(recording.progress.stamps),
