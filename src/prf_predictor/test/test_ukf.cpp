@@ -129,6 +129,20 @@ TEST(Ukf, NisIsConsistentOnDataDrawnFromTheModel) {
   EXPECT_NEAR(sum, freedom, 1.96 * std::sqrt(2 * freedom));
 }
 
+// Of x^2 with x ~ N(m, s^2): mean m^2 + s^2, variance 4 m^2 s^2 + 2 s^4; exact for beta = 2.
+TEST(UnscentedTransform, IsExactForASquare) {
+  const double m = 0.7;
+  const double s = 0.4;
+  const Gaussian x{Eigen::VectorXd::Constant(1, m), Eigen::MatrixXd::Constant(1, 1, s * s)};
+  const auto square = [](const Eigen::VectorXd& value) -> Eigen::VectorXd {
+    return value.cwiseProduct(value);
+  };
+  const auto transformed = unscented_transform(x, SigmaPointParams{1.0, 2.0, 0.0}, square);
+  EXPECT_NEAR(transformed.result.mean(0), m * m + s * s, 1e-14);
+  EXPECT_NEAR(transformed.result.covariance(0, 0), 4 * m * m * s * s + 2 * std::pow(s, 4), 1e-14);
+  EXPECT_NEAR(transformed.cross_covariance(0, 0), 2 * m * s * s, 1e-14);
+}
+
 TEST(UnscentedTransform, UsesTheGivenMeanAndResidualForAngles) {
   Gaussian heading{Eigen::VectorXd::Constant(1, M_PI - 0.05),
                    Eigen::MatrixXd::Constant(1, 1, 0.04)};
