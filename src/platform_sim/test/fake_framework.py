@@ -5,6 +5,7 @@ import io
 import os
 import signal
 import subprocess
+import time
 
 import roslib.packages
 import rospkg
@@ -16,6 +17,7 @@ from prf_msgs.msg import (ContactArray, ExecutionProgress, SkillTrajectory, TagD
                           TargetForecast)
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import CameraInfo, Image, JointState
+from std_srvs.srv import Trigger
 from trajectory_msgs.msg import (JointTrajectory, JointTrajectoryPoint,
                                  MultiDOFJointTrajectory)
 
@@ -105,6 +107,20 @@ class FakeFramework:
 
     def __exit__(self, *_):
         self.close()
+
+    def run(self, **changes):
+        """A run that begins when everything is connected; exit code and everything printed."""
+        simulator = Simulator(paused=True, **changes)
+        rospy.wait_for_service(NODE + "/start", timeout=30.0)
+        deadline = time.monotonic() + 30.0
+        while any(subscriber.get_num_connections() == 0 for subscriber in self.subscribers):
+            if time.monotonic() > deadline:
+                raise AssertionError("the simulator's topics are not all there")
+            time.sleep(0.05)
+        rospy.ServiceProxy(NODE + "/start", Trigger)()
+        result = simulator.wait()
+        time.sleep(0.5)  # for callbacks that still run
+        return result
 
     def stamps_ms(self, name):
         return [round(message.header.stamp.to_sec() * 1000) for message in self.messages[name]]

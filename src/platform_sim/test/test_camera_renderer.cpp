@@ -206,6 +206,11 @@ TEST(CameraRenderer, BlursAlongTheMotionDuringTheExposure) {
   const cv::Mat blurred = renderer.render(exposure);
   const cv::Mat sharp = renderer.render(exposure[2]);
   EXPECT_GT(cv::countNonZero(blurred != sharp), 1000);
+  cv::Mat sum(camera.height, camera.width, CV_64FC1, cv::Scalar(0));
+  for (const CameraView& view : exposure) cv::add(sum, renderer.render(view), sum, {}, CV_64F);
+  cv::Mat difference;
+  cv::subtract(sum / 5.0, blurred, difference, {}, CV_64F);
+  EXPECT_LE(cv::norm(difference, cv::NORM_INF), 0.5);
   const auto found = detect(blurred, camera, target.tag_size);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->tag_in_camera.translation().x(), 0.0, 0.2e-3);

@@ -20,8 +20,7 @@ SHORT = {"time_limit": 0.5, "answer_timeout": 5.0}
 class LockstepTest(unittest.TestCase):
     def test_publishes_every_topic_with_the_stamps_of_the_clock(self):
         with FakeFramework() as peer:
-            code, output = Simulator(time_limit=1.0).wait()
-            time.sleep(0.5)
+            code, output = peer.run(time_limit=1.0)
         self.assertEqual(code, 0, output)
         ticks = list(range(10, 1001, 10))
         for name in ("joint_states", "ground_truth/platform", "ground_truth/base",
@@ -40,7 +39,7 @@ class LockstepTest(unittest.TestCase):
 
     def test_describes_image_and_joints(self):
         with FakeFramework() as peer:
-            code, output = Simulator(**SHORT).wait()
+            code, output = peer.run(**SHORT)
         self.assertEqual(code, 0, output)
         image, info = peer.messages["camera/image_raw"][0], peer.messages["camera/camera_info"][0]
         self.assertEqual((image.width, image.height, image.encoding), (640, 480, "mono8"))
@@ -58,7 +57,7 @@ class LockstepTest(unittest.TestCase):
         target = list(config()["initial_positions"])
         target[6] += 0.1
         with FakeFramework(positions=target) as peer:
-            code, output = Simulator(**{**SHORT, "time_limit": 1.0}).wait()
+            code, output = peer.run(**{**SHORT, "time_limit": 1.0})
         self.assertEqual(code, 0, output)
         for index in range(7):
             self.assertAlmostEqual(peer.messages["joint_states"][-1].position[12 + index],
@@ -68,8 +67,7 @@ class LockstepTest(unittest.TestCase):
         digests = []
         for seed in (3, 3, 4):
             with FakeFramework() as peer:
-                code, output = Simulator(motion="light", seed=seed, **SHORT).wait()
-                time.sleep(0.5)
+                code, output = peer.run(motion="light", seed=seed, **SHORT)
             self.assertEqual(code, 0, output)
             digests.append({name: value.hexdigest() for name, value in peer.digest.items()})
         self.assertEqual(digests[0], digests[1])
@@ -77,14 +75,13 @@ class LockstepTest(unittest.TestCase):
 
     def test_ends_a_while_after_the_skill_is_done(self):
         with FakeFramework(done_at=0.2) as peer:
-            code, output = Simulator(end_delay=0.3).wait()
-            time.sleep(0.5)
+            code, output = peer.run(end_delay=0.3)
         self.assertEqual(code, 0, output)
         self.assertEqual(peer.stamps_ms("joint_states")[-1], 500)
 
     def test_holds_the_arm_when_a_command_is_not_finite(self):
         with FakeFramework(positions=[float("nan")] * 7) as peer:
-            code, output = Simulator(**SHORT).wait()
+            code, output = peer.run(**SHORT)
         self.assertEqual(code, 0, output)
         self.assertIn("joint_command refused, the arm holds: a position is not finite", output)
         for start, position in zip(config()["initial_positions"],
@@ -99,7 +96,7 @@ class LockstepTest(unittest.TestCase):
 
     def test_lets_a_hand_guide_the_arm(self):
         with FakeFramework(guide=True) as peer:
-            code, output = Simulator(arm_mode="compliant", **SHORT).wait()
+            code, output = peer.run(arm_mode="compliant", **SHORT)
         self.assertEqual(code, 0, output)
         heights = [m.pose.position.z for m in peer.messages["ground_truth/end_effector"]]
         self.assertGreater(heights[-1], heights[0] + 0.002)
@@ -128,13 +125,13 @@ class SilenceTest(unittest.TestCase):
                 if name != "joint_command":
                     peer.publishers["joint_command"] = MutedFrom(
                         peer.publishers["joint_command"], mute_from + 0.08)
-                code, output = Simulator(answer_timeout=2.0).wait()
+                code, output = peer.run(answer_timeout=2.0)
             self.assertEqual(code, 3, output)
             self.assertIn(f"{name} is silent", output)
 
     def test_names_the_trajectory_that_the_decision_waits_for(self):
         with FakeFramework(forecast=True, mute="execution/progress", mute_from=0.11) as peer:
-            code, output = Simulator(answer_timeout=2.0).wait()
+            code, output = peer.run(answer_timeout=2.0)
         self.assertEqual(code, 3, output)
         self.assertIn("skill/trajectory is silent", output)
         self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
