@@ -126,7 +126,6 @@ class SkillPlannerNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "skill_planner");
-  const ros::NodeHandle keeps_console_open;  // the last handle to go takes rosout and stderr along
   return prf_parameters::run([] {
     elte_planner::SkillPlannerNode node(elte_planner::load_node_params(ros::NodeHandle("~")));
     ros::spin();

@@ -106,7 +106,7 @@ class ArmControllerNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "arm_controller");
-  ros::NodeHandle node;  // out here: when the last handle goes, so does the log
+  ros::NodeHandle node;
   return prf_parameters::run([&node] {
     prf_control::ArmControllerNode controller(node, prf_control::read_params(ros::NodeHandle("~")));
     ros::spin();

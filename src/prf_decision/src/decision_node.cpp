@@ -124,11 +124,9 @@ class DecisionNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "decision");
-  // Outlives run(): once the last handle is gone, the console is mute.
-  const ros::NodeHandle private_handle("~");
-  return prf_parameters::run([&private_handle] {
+  return prf_parameters::run([] {
     prf_decision::DecisionNode node(
-        prf_decision::load_parameters(prf_parameters::PrivateParameters(private_handle)));
+        prf_decision::load_parameters(prf_parameters::PrivateParameters(ros::NodeHandle("~"))));
     ros::spin();
   });
 }

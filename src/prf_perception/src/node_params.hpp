@@ -2,11 +2,12 @@
 // Parameters of tag_detector_node, documented in config/tag_detector.yaml.
 #pragma once
 
+#include <prf_parameters/private_parameters.hpp>
+
 #include <set>
 #include <stdexcept>
 #include <string>
 
-#include "parameters.hpp"
 #include "prf_perception/tag_detector.hpp"
 
 namespace prf_perception {
@@ -18,7 +19,7 @@ struct NodeParams {
 };
 
 inline NodeParams load(const ros::NodeHandle& private_node) {
-  Parameters parameters(private_node);
+  prf_parameters::PrivateParameters parameters(private_node);
   NodeParams params;
   params.detector.family = parameters.text("tag_family");
   params.detector.tag_size = parameters.number("tag_size");

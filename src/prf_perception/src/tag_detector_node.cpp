@@ -131,13 +131,9 @@ class TagDetectorNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tag_detector");
-  const ros::NodeHandle private_node("~");  // outlives the complaint below, it keeps the log open
-  try {
-    prf_perception::TagDetectorNode node(ros::NodeHandle(), prf_perception::load(private_node));
+  return prf_parameters::run([] {
+    prf_perception::TagDetectorNode node(ros::NodeHandle(),
+                                         prf_perception::load(ros::NodeHandle("~")));
     ros::spin();
-  } catch (const std::invalid_argument& error) {
-    ROS_FATAL("parameter refused: %s", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -2,12 +2,13 @@
 // Parameters of target_predictor_node, documented in config/target_predictor.yaml.
 #pragma once
 
+#include <prf_parameters/private_parameters.hpp>
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "parameters.hpp"
 #include "prf_predictor/target_tracker.hpp"
 #include "require.hpp"
 
@@ -45,7 +46,7 @@ inline void validate(const NodeParams& params) {
 }
 
 inline NodeParams load(const ros::NodeHandle& private_node) {
-  Parameters parameters(private_node);
+  prf_parameters::PrivateParameters parameters(private_node);
   NodeParams params;
   params.planning_frame = parameters.text("planning_frame");
   params.tag_id = parameters.integer("tag_id");

@@ -150,13 +150,9 @@ class TargetPredictorNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "target_predictor");
-  const ros::NodeHandle private_node("~");  // outlives the complaint below, it keeps the log open
-  try {
-    prf_predictor::TargetPredictorNode node(ros::NodeHandle(), prf_predictor::load(private_node));
+  return prf_parameters::run([] {
+    prf_predictor::TargetPredictorNode node(ros::NodeHandle(),
+                                            prf_predictor::load(ros::NodeHandle("~")));
     ros::spin();
-  } catch (const std::invalid_argument& error) {
-    ROS_FATAL("parameter refused: %s", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }
