@@ -3,15 +3,15 @@
 
 A digest covers the serialised messages of one publisher on one topic in their order, every field
 including header.seq; receipt times in the bag are not covered. Publishers are kept apart because
-the order between two of them (on tf) is left to the network. Diagnostics and rosout carry
-wall-clock figures and are exempt.
+the order between two of them (on tf) is left to the network. Exempt are diagnostics and rosout,
+which carry wall-clock figures, and the trial's description of itself (command, versions).
 """
 import hashlib
 from dataclasses import dataclass
 
 from prf_experiments import recording
 
-EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg"}
+EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg", "/" + recording.DESCRIPTION}
 
 
 @dataclass
@@ -32,9 +32,7 @@ def digests(path, topics=None):
                                                        return_connection_header=True):
             caller = header["callerid"]
             key = topic, caller.decode() if isinstance(caller, bytes) else caller
-            data = raw[1]
-            hashes.setdefault(key, hashlib.sha256()).update(
-                len(data).to_bytes(4, "little") + data)
+            hashes.setdefault(key, hashlib.sha256()).update(raw[1])
             counts[key] = counts.get(key, 0) + 1
     return {key: Digest(counts[key], hashes[key].hexdigest()) for key in sorted(hashes)}
 

@@ -22,7 +22,7 @@ def trial_arguments():
     return {
         "motion": argument("light", **args.choice("none", "light", "heavy"),
                            meaning="how the platform moves"),
-        "gait": argument("stand", **args.choice("stand"), meaning="what the legs do"),
+        "gait": argument("stand", **args.choice("stand", "step"), meaning="what the legs do"),
         "planner": argument("elte", **args.choice("elte"), meaning="how the skill is adapted"),
         "framework": argument(True, **args.boolean(),
                               meaning="false: adapt once, to the first sight, execute blindly"),
