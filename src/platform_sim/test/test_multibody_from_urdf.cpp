@@ -153,9 +153,7 @@ TEST(RobotModel, PendulumSwingsWithItsPeriod) {
 TEST(RobotModel, ChaoticSwingKeepsItsEnergy) {
   TwoLinks two;
   two.pose(1.2, 0.5);
-  const auto energy = [&] {
-    return kinetic_energy(two.robot) + potential_energy(two.robot);
-  };
+  const auto energy = [&] { return kinetic_energy(two.robot) + potential_energy(two.robot); };
   const double start = energy();
   double lowest_potential = potential_energy(two.robot);
   double drift = 0.0;
