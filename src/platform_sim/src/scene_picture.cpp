@@ -26,7 +26,7 @@ constexpr char kUsage[] =
     "  ground_truth/{platform,base}\n";
 
 const Eigen::Vector3d kEye(-1.95, -1.50, 1.65);  // m, in world: behind, to the right
-const Eigen::Vector3d kFocus(0.33, 0.02, 0.70);
+const Eigen::Vector3d kFocus(0.33, 0.02, 0.63);
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path);
@@ -83,7 +83,7 @@ SceneState state_at(const std::string& bag_path, double time) {
 void draw(const std::string& urdf_path, const std::string& bag_path, const std::string& time,
           const std::string& out_path) {
   const platform_sim::SceneRenderer renderer(read_file(urdf_path), platform_sim::TargetBox{});
-  const platform_sim::PinholeCamera camera{1280, 960, 1250.0, 1250.0, 639.5, 479.5};
+  const platform_sim::PinholeCamera camera{1280, 960, 1150.0, 1150.0, 639.5, 479.5};
   const cv::Mat image = renderer.render(state_at(bag_path, to_time(time)), camera,
                                         platform_sim::look_at(kEye, kFocus));
   if (!cv::imwrite(out_path, image)) throw std::invalid_argument("cannot write " + out_path);
