@@ -82,10 +82,9 @@ class Recording:
     sights: np.ndarray  # (n, 7) tag in the camera's optical frame, NaN where it was not seen
     images: int  # camera/image_raw messages
     progress: Progress
-    forecasts: Forecasts = None
-    plans: list = field(default_factory=list)
-    control_codes: np.ndarray = None
-    arm_base_in_body: np.ndarray = None  # (7,), from tf_static
+    forecasts: Forecasts
+    plans: list
+    arm_base_in_body: np.ndarray  # (7,), from tf_static
     description: dict = field(default_factory=dict)
 
     @property
@@ -124,52 +123,103 @@ def description(path):
     return {}
 
 
-class _Columns:
-    """Rows collected per topic while the bag is read once."""
-
-    def __init__(self):
-        self.stamps = {}
-        self.rows = {}
-
-    def add(self, topic, stamp, row=None):
-        self.stamps.setdefault(topic, []).append(stamp)
-        self.rows.setdefault(topic, []).append(row)
-
-    def poses(self, topic):
-        return Poses(np.array(self.stamps[topic], dtype=np.int64),
-                     np.array(self.rows[topic], dtype=float).reshape(-1, 7))
-
-    def ints(self, topic):
-        return np.array(self.stamps.get(topic, []), dtype=np.int64)
-
-
 def tag_row(message, tag_id):
+    """Pose of a tag in a TagDetectionArray as 7 numbers, NaN when it was not found."""
     for detection in message.detections:
         if detection.id == tag_id:
             return pose_values(detection.pose.pose)
     return (np.nan,) * 7
 
 
-def _static_chain(transforms, child, parent):
-    """Pose of child in parent along fixed transforms {child: (parent, pose)}, or None."""
-    pose = geometry.IDENTITY
-    while child != parent:
-        if child not in transforms:
-            return None
-        child, step = transforms[child]
-        pose = geometry.compose(step, pose)
-    return pose
+class _Reader:
+    """Collects what one pass through the bag gives: stamps and rows of each topic."""
+
+    def __init__(self, tag_id):
+        self._tag_id = tag_id
+        self._stamps, self._rows = {}, {}
+        self._fixed = {}  # child: (parent, pose of child in parent)
+        self.contacts, self.plans, self.horizons, self.positions = [], [], [], []
+        self.description = {}
+        self._rows_of = {
+            "joint_states": lambda message: None,
+            "ground_truth/platform": lambda message: pose_values(message.pose.pose),
+            "ground_truth/base": lambda message: pose_values(message.pose.pose),
+            "ground_truth/tag": lambda message: pose_values(message.pose),
+            "ground_truth/camera": lambda message: pose_values(message.pose),
+            "ground_truth/end_effector": lambda message: pose_values(message.pose),
+            "ground_truth/contacts": self._keep_contacts,
+            "tag_detections": lambda message: tag_row(message, self._tag_id),
+            "target/forecast": self._keep_forecast,
+            "skill/trajectory": self._keep_plan,
+            "execution/progress": lambda message: (message.state, message.cursor, message.reason,
+                                                   *message.posterior),
+        }
+
+    @property
+    def topics(self):
+        return ["/" + name for name in [*self._rows_of, DESCRIPTION, "tf_static"]]
+
+    def take(self, topic, message):
+        name = topic[1:]
+        if name == DESCRIPTION:
+            self.description = json.loads(message.data)
+        elif name == "tf_static":
+            for item in message.transforms:
+                self._fixed[item.child_frame_id] = (item.header.frame_id,
+                                                    transform_values(item.transform))
+        else:
+            self._stamps.setdefault(name, []).append(message.header.stamp.to_nsec())
+            self._rows.setdefault(name, []).append(self._rows_of[name](message))
+
+    def _keep_contacts(self, message):
+        stamp = message.header.stamp.to_nsec()
+        self.contacts += [Contact(stamp, (contact.link_a, contact.link_b), contact.force)
+                          for contact in message.contacts]
+
+    def _keep_forecast(self, message):
+        self.horizons.append(np.array([p.horizon.to_sec() for p in message.predictions]))
+        self.positions.append(np.array([pose_values(p.pose)[:3]
+                                        for p in message.predictions]).reshape(-1, 3))
+        return message.status
+
+    def _keep_plan(self, message):
+        positions = np.array([pose_values(pose)[:3] for pose in message.poses]).reshape(-1, 3)
+        self.plans.append(Plan(message.header.stamp.to_nsec(), message.status,
+                               message.kkt_residual, positions))
+
+    def stamps(self, topic):
+        return np.array(self._stamps[topic], dtype=np.int64)
+
+    def poses(self, topic):
+        return Poses(self.stamps(topic), np.array(self._rows[topic], dtype=float).reshape(-1, 7))
+
+    def progress(self):
+        states, cursors, reasons, *posteriors = zip(*self._rows["execution/progress"])
+        return Progress(self.stamps("execution/progress"), np.array(states, dtype=int),
+                        np.array(posteriors, dtype=float).T, np.array(cursors, dtype=float),
+                        list(reasons))
+
+    def forecasts(self):
+        return Forecasts(self.stamps("target/forecast"),
+                         np.array(self._rows["target/forecast"], dtype=int),
+                         self.horizons, self.positions)
+
+    def fixed_pose(self, child, parent):
+        """Pose of child in parent along fixed transforms; None when they do not say."""
+        pose = geometry.IDENTITY
+        while child != parent:
+            if child not in self._fixed:
+                return None
+            child, step = self._fixed[child]
+            pose = geometry.compose(step, pose)
+        return pose
 
 
 def read(path, tag_id=0):
     """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing."""
     if not os.path.exists(path):
         raise RecordingError(f"{path}: there is no such bag")
-    columns, contacts, plans, fixed, description = _Columns(), [], [], {}, {}
-    horizons, positions = [], []
-    wanted = ["/" + name for name in GROUND_TRUTH + OUTPUTS + [DESCRIPTION]
-              if name not in ("execution/setpoint", "joint_command")]
-    wanted += ["/joint_states", "/tf_static"]
+    reader = _Reader(tag_id)
     with open_bag(path) as bag:
         counts = {name.lstrip("/"): info.message_count
                   for name, info in bag.get_type_and_topic_info().topics.items()}
@@ -177,68 +227,27 @@ def read(path, tag_id=0):
         if missing:
             raise RecordingError(f"{path}: no message of " + ", ".join(missing))
         try:
-            for topic, message, _ in bag.read_messages(topics=wanted):
-                name = topic[1:]
-                if name == DESCRIPTION:
-                    description = json.loads(message.data)
-                    continue
-                if name == "tf_static":
-                    for item in message.transforms:
-                        fixed[item.child_frame_id] = (item.header.frame_id,
-                                                      transform_values(item.transform))
-                    continue
-                stamp = message.header.stamp.to_nsec()
-                if name in ("ground_truth/platform", "ground_truth/base"):
-                    columns.add(name, stamp, pose_values(message.pose.pose))
-                elif name == "ground_truth/contacts":
-                    columns.add(name, stamp)
-                    contacts += [Contact(stamp, (c.link_a, c.link_b), c.force)
-                                 for c in message.contacts]
-                elif name in GROUND_TRUTH:
-                    columns.add(name, stamp, pose_values(message.pose))
-                elif name == "tag_detections":
-                    columns.add(name, stamp, tag_row(message, tag_id))
-                elif name == "target/forecast":
-                    columns.add(name, stamp, message.status)
-                    horizons.append(np.array([p.horizon.to_sec() for p in message.predictions]))
-                    positions.append(np.array([pose_values(p.pose)[:3]
-                                               for p in message.predictions]).reshape(-1, 3))
-                elif name == "execution/progress":
-                    columns.add(name, stamp, (message.state, message.cursor, message.reason,
-                                              *message.posterior))
-                elif name == "skill/trajectory":
-                    plans.append(Plan(stamp, message.status, message.kkt_residual,
-                                      np.array([pose_values(p)[:3]
-                                                for p in message.poses]).reshape(-1, 3)))
-                elif name == "control/status":
-                    columns.add(name, stamp, message.code)
-                else:
-                    columns.add(name, stamp)
+            for topic, message, _ in bag.read_messages(topics=reader.topics):
+                reader.take(topic, message)
         except (rosbag.ROSBagException, OSError, ValueError, EOFError, RuntimeError) as error:
             raise RecordingError(f"{path}: broken: {error}") from None
-
-    progress = columns.rows["execution/progress"]
+    arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
+    if arm_base_in_body is None:
+        raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}")
     return Recording(
-        ticks=columns.ints("joint_states"),
-        tag=columns.poses("ground_truth/tag"),
-        camera=columns.poses("ground_truth/camera"),
-        end_effector=columns.poses("ground_truth/end_effector"),
-        base=columns.poses("ground_truth/base"),
-        platform=columns.poses("ground_truth/platform"),
-        contact_stamps=columns.ints("ground_truth/contacts"),
-        contacts=contacts,
-        sight_stamps=columns.ints("tag_detections"),
-        sights=columns.poses("tag_detections").values,
+        ticks=reader.stamps("joint_states"),
+        tag=reader.poses("ground_truth/tag"),
+        camera=reader.poses("ground_truth/camera"),
+        end_effector=reader.poses("ground_truth/end_effector"),
+        base=reader.poses("ground_truth/base"),
+        platform=reader.poses("ground_truth/platform"),
+        contact_stamps=reader.stamps("ground_truth/contacts"),
+        contacts=reader.contacts,
+        sight_stamps=reader.stamps("tag_detections"),
+        sights=reader.poses("tag_detections").values,
         images=counts["camera/image_raw"],
-        progress=Progress(columns.ints("execution/progress"),
-                          np.array([row[0] for row in progress], dtype=int),
-                          np.array([row[3:] for row in progress], dtype=float),
-                          np.array([row[1] for row in progress], dtype=float),
-                          [row[2] for row in progress]),
-        forecasts=Forecasts(columns.ints("target/forecast"),
-                            np.array(columns.rows["target/forecast"], dtype=int),
-                            horizons, positions),
-        plans=plans,
-        control_codes=np.array(columns.rows["control/status"], dtype=int),
-        arm_base_in_body=_static_chain(fixed, PLANNING_FRAME, BODY_FRAME),
-        description=description)
+        progress=reader.progress(),
+        forecasts=reader.forecasts(),
+        plans=reader.plans,
+        arm_base_in_body=arm_base_in_body,
+        description=reader.description)

@@ -54,7 +54,7 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
         forecasts=recording.Forecasts(images, np.ones(len(images), dtype=int),
                                       [np.array([0.0, 0.5])] * len(images),
                                       [np.array([[0.8, 0.0, 0.65]] * 2)] * len(images)),
-        control_codes=np.zeros(count, dtype=int), arm_base_in_body=ARM_BASE_IN_BODY)
+        plans=[], arm_base_in_body=ARM_BASE_IN_BODY)
 
 
 def _stamped(kind, stamp, frame=""):

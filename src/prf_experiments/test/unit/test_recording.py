@@ -41,6 +41,10 @@ class Recording(unittest.TestCase):
         synthetic.write_bag(self.bag, synthetic.make_recording(1.0), {"ground_truth/contacts"})
         self.assert_refused("ground_truth/contacts")
 
+    def test_refuses_a_bag_that_does_not_place_the_arm(self):
+        synthetic.write_bag(self.bag, synthetic.make_recording(1.0), {"tf_static"})
+        self.assert_refused("tf_static does not place j2s7s300_link_base")
+
     def test_refuses_a_bag_without_messages(self):
         rosbag.Bag(self.bag, "w").close()
         self.assert_refused("no message of")
