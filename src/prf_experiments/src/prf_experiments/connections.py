@@ -30,7 +30,10 @@ FRAMEWORK_NODES = ["robot_state_publisher", "tag_detector", "target_predictor", 
 
 
 def trial_links(source, simulated=True):
-    """(topic, publisher, subscriber) without which nothing goes; `source` gives the sensor topics."""
+    """(topic, publisher, subscriber) without which nothing goes.
+
+    `source` is the node that publishes the sensor topics.
+    """
     links = [(topic, publisher, subscriber)
              for topic, (publisher, subscribers) in FRAMEWORK_FLOW.items()
              for subscriber in subscribers]

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from prf_experiments import geometry, judge
 
 TRUE = {"color": "black", "linewidth": 1.2}
-MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5, "alpha": 0.45,
-            "markeredgewidth": 0.0}
+MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5,
+            "markeredgewidth": 0.0, "alpha": 0.45}
 PREDICTED = {"color": "#0072B2", "linewidth": 1.1, "linestyle": (0, (4, 2))}
 PLANNED = {"color": "#0072B2", "linewidth": 2.6, "linestyle": (0, (3, 2)), "alpha": 0.7}
 DEMONSTRATED = {"color": "#009E73", "linewidth": 1.4, "linestyle": (0, (1, 1.5))}
@@ -99,8 +99,9 @@ def distances(recording, stamps, lateral, along, contacts):
     panels = figure.subplots(4, 1, sharex=True, height_ratios=[1, 1, 0.35, 0.7])
     times, across, error = thin(recording.seconds(stamps), 1e3 * lateral,
                                 1e3 * (along - judge.STAND_OFF))
-    for panel, values, label, sides in ((panels[0], across, "off the axis, mm", [1]),
-                                        (panels[1], error, "along the axis\nto stand-off, mm", [-1, 1])):
+    for panel, values, label, sides in (
+            (panels[0], across, "off the axis, mm", [1]),
+            (panels[1], error, "along the axis\nto stand-off, mm", [-1, 1])):
         _grid(panel)
         panel.plot(times, values, **TRUE)
         for bound, name in ((judge.REACHED_BOUND, "reached"), (judge.INSPECTED_BOUND, "inspected")):

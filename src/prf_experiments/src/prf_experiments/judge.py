@@ -126,7 +126,8 @@ def defect(recording):
         if lost.size:
             return (f"{name} breaks off {recording.seconds(stamps[lost[0]]):.2f} s into the trial: "
                     f"next stamp {(stamps[lost[0] + 1] - stamps[lost[0]]) * 1e-9:.3f} s later")
-        if abs(stamps[0] - recording.ticks[0]) > TICK or abs(stamps[-1] - recording.ticks[-1]) > TICK:
+        if (abs(stamps[0] - recording.ticks[0]) > TICK
+                or abs(stamps[-1] - recording.ticks[-1]) > TICK):
             return (f"{name} covers {recording.seconds(stamps[0]):.2f} to "
                     f"{recording.seconds(stamps[-1]):.2f} s of a trial of "
                     f"{recording.seconds(recording.ticks[-1]):.2f} s")
@@ -173,7 +174,9 @@ def _tracking_statistics(recording, stamps, lateral):
     """Mean and standard deviation of the lateral distance while tracking, mm, or None."""
     tracking = recording.progress.stamps[recording.progress.states == STATES.index("TRACKING")]
     chosen = lateral[np.isin(stamps, tracking)]
-    return (1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))) if chosen.size else (None, None)
+    if not chosen.size:
+        return None, None
+    return 1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))
 
 
 def judge(recording):
@@ -196,7 +199,8 @@ def judge(recording):
 
     failures, issues = [], []
     if stopped.size:
-        failures.append(f"the arm stopped at {recording.seconds(recording.progress.stamps[stopped[0]]):.2f} s: "
+        when = recording.seconds(recording.progress.stamps[stopped[0]])
+        failures.append(f"the arm stopped at {when:.2f} s: "
                         + (recording.progress.reasons[stopped[0]] or "no reason given"))
     if fall is not None:
         failures.append(f"the robot fell at {recording.seconds(fall):.2f} s")

@@ -62,7 +62,7 @@ def main(words):
         reporter.tell(started=[node.name for node in parent.config.nodes])
         sys.stdin.read()
     except Exception as error:  # whatever roslaunch raises ends the launch and is reported
-        reporter.tell(error=str(error).strip().splitlines()[0] if str(error).strip() else repr(error))
+        reporter.tell(error=(str(error).strip() or repr(error)).splitlines()[0])
         return 1
     finally:
         parent.shutdown()

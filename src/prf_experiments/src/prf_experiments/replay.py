@@ -21,8 +21,8 @@ def player(bag, log_file, rate):
     """`rosbag play` of the sensor topics, paused before the first message."""
     with open(log_file, "w", encoding="utf-8") as log:
         process = subprocess.Popen(
-            [processes.executable("rosbag", "play"), "--pause", "--queue=0", f"--rate={rate}", "--topics",
-             *("/" + topic for topic in PLAYED), "--bags", bag, "__name:=player"],
+            [processes.executable("rosbag", "play"), "--pause", "--queue=0", f"--rate={rate}",
+             "--topics", *("/" + topic for topic in PLAYED), "--bags", bag, "__name:=player"],
             stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
     try:
         yield process
@@ -37,7 +37,8 @@ def replay(bag, folder, rate):
     description = recording.description(bag)
     chosen = description.get("arguments", {})
     play = session.Session(
-        folder=folder, bag="replay.bag", launch_file=session.packaged("launch", "framework.launch"),
+        folder=folder, bag="replay.bag",
+        launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
                           if name in chosen],
         topics=recording.OUTPUTS + recording.TRANSFORMS,

@@ -7,7 +7,7 @@ import tempfile
 
 import numpy as np
 
-from prf_experiments import (connections, demonstration, frames, geometry, recording, session)
+from prf_experiments import demonstration, frames, geometry, recording, session
 
 HAND_FRAME = "j2s7s300_end_effector"
 RATE = 20.0  # Hz, of the demonstration

@@ -47,7 +47,8 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
     posteriors = np.tile([0.8, 0.15, 0.05], (count, 1))
     sights = np.tile([0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0], (len(images), 1))
     return recording.Recording(
-        ticks=ticks, tag=still(ticks, TAG), camera=camera, end_effector=still(ticks, camera_pose(0, 0.2)),
+        ticks=ticks, tag=still(ticks, TAG), camera=camera,
+        end_effector=still(ticks, camera_pose(0, 0.2)),
         base=still(ticks, BASE), platform=still(ticks, STILL), contact_stamps=ticks, contacts=[],
         sight_stamps=images, sights=sights, images=len(images),
         progress=recording.Progress(ticks, states, posteriors, np.zeros(count), [""] * count),
@@ -90,7 +91,7 @@ class _Writer:
 
 
 def write_bag(path, data, skipped=(), hand=None, seed=0):
-    """Bag of a made-up trial without the topics `skipped`; `hand` (n, 7) moves in the arm's base."""
+    """Bag of a made-up trial without the topics `skipped`; `hand` (n, 7) is in the arm's base."""
     noise = np.random.default_rng(seed).integers(0, 255, 16, dtype=np.uint8).tobytes()
     with rosbag.Bag(path, "w", compression="lz4") as bag:
         writer = _Writer(bag, skipped)

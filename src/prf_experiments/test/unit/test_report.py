@@ -15,7 +15,8 @@ from prf_experiments import demonstration, geometry, judge, recording, report  #
 VOID = {"meta", "br", "hr", "img"}
 SKILL = demonstration.Demonstration(
     "base", "hand", geometry.IDENTITY, 0.1 * np.arange(20),
-    np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20), np.tile([0, 0, 0, 1.0], (20, 1))]))
+    np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20),
+               np.tile([0, 0, 0, 1.0], (20, 1))]))
 
 
 class Balance(HTMLParser):

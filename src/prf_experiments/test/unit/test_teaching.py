@@ -59,7 +59,8 @@ class Teaching(unittest.TestCase):
 
     def test_resampled_quaternions_do_not_change_sign(self):
         times = np.linspace(0.0, 1.0, 11)
-        poses = np.hstack([np.zeros((11, 3)), [geometry.exp([0, 0, 0.1 * row]) for row in range(11)]])
+        turned = [geometry.exp([0.0, 0.0, 0.1 * row]) for row in range(11)]
+        poses = np.hstack([np.zeros((11, 3)), turned])
         poses[5:, 3:] *= -1.0
         quaternions = teaching.resample(times, poses, 50.0)[1][:, 3:]
         self.assertTrue(np.all(np.sum(quaternions[1:] * quaternions[:-1], axis=1) > 0.9))
