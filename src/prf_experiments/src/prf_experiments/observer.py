@@ -20,7 +20,7 @@ TYPES = {"/execution/progress": prf_msgs.msg.ExecutionProgress,
 
 class Observer:
     def __init__(self, description=None):
-        rospy.init_node(NAME, disable_signals=True)
+        rospy.init_node(NAME, disable_signals=True, log_level=rospy.ERROR)
         if description is not None:
             self._publisher = rospy.Publisher("/" + recording.DESCRIPTION, std_msgs.msg.String,
                                               latch=True, queue_size=1)
