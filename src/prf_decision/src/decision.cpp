@@ -53,7 +53,7 @@ void DecisionParameters::validate() const {
   require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0");
   require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
           tracking_tolerance, "> 0");
-  catch_up_speed.validate();
+  catch_up.validate();
   guards.validate();
   hmm.validate();
 }
@@ -197,7 +197,7 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
   std::optional<MovingPose> setpoint;
   if (wanted) {
     setpoint =
-        setpoint_ ? limited_setpoint(*setpoint_, *wanted, parameters_.catch_up_speed, dt) : *wanted;
+        setpoint_ ? limited_setpoint(*setpoint_, *wanted, parameters_.catch_up, dt) : *wanted;
     setpoint_ = setpoint->pose;
   } else if (!holds && setpoint_) {
     setpoint = MovingPose{*setpoint_, {0, 0, 0}, {0, 0, 0}};

@@ -44,8 +44,8 @@ inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) 
   decision.dwell_time = seconds("dwell_time");
   decision.time_limit = seconds("time_limit");
   decision.tracking_tolerance = values.number("tracking_tolerance");
-  const auto catch_up = values.numbers("catch_up_speed", 2);
-  decision.catch_up_speed = {catch_up[0], catch_up[1]};
+  const auto speed = values.numbers("catch_up_speed", 2);
+  decision.catch_up = {speed[0], speed[1], values.number("catch_up_time")};
 
   GuardParameters& guards = decision.guards;
   const auto coast = values.numbers("coast_limits", 3);

@@ -69,7 +69,7 @@ inline DecisionParameters usual_parameters() {
   parameters.dwell_time = from_seconds(0.2);
   parameters.time_limit = from_seconds(20.0);
   parameters.tracking_tolerance = 0.02;
-  parameters.catch_up_speed = {0.2, 0.5};
+  parameters.catch_up = {0.2, 0.5, 0.1};
   parameters.guards = usual_guards();
   parameters.hmm = usual_hmm();
   return parameters;

@@ -138,14 +138,14 @@ TEST(Decision, FollowsTheForecastAheadByTheLead) {
   World world;
   world.until(State::kTracking, 2);
   world.velocity = {0, 0.1, 0};
-  for (int tick = 0; tick < 50; ++tick) {
+  for (int tick = 0; tick < 200; ++tick) {
     const double y = world.position.y();
     const Outcome outcome = world.tick();
     world.position.y() += world.velocity.y() * to_seconds(kTickPeriod);
-    if (tick < 10) continue;  // the step in velocity is still being caught up with
+    if (tick < 150) continue;  // the step in velocity is still being caught up with
     // The image is 0.06 s old and the lead 0.02 s.
-    EXPECT_NEAR(outcome.setpoint->pose.position.y(), y + 0.1 * 0.08, 1e-9);
-    EXPECT_NEAR(outcome.setpoint->linear_velocity.y(), 0.1, 1e-9);
+    EXPECT_NEAR(outcome.setpoint->pose.position.y(), y + 0.1 * 0.08, 1e-7);
+    EXPECT_NEAR(outcome.setpoint->linear_velocity.y(), 0.1, 1e-6);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(Decision, PausesAndGoesBackAsTheTargetQuickens) {
   EXPECT_LT(rewound.progress.cursor, back.progress.cursor);
   EXPECT_EQ(rewound.progress.cursor, 0);
   EXPECT_EQ(rewound.progress.frozen, 2u);
-  EXPECT_EQ(rewound.setpoint->linear_velocity.norm(), 0);
+  EXPECT_LT(rewound.setpoint->linear_velocity.norm(), 1e-6);
   world.velocity = kStill;
   world.until(State::kForward, 2);
 }
@@ -330,7 +330,7 @@ TEST(Decision, BlindGoesToTheEndAndHoldsWhateverTheTargetDoes) {
   EXPECT_EQ(arrived.progress.posterior, Eigen::Vector3d::UnitX());
   const Outcome done = world.until(State::kDone, 1.1);
   EXPECT_LT((done.setpoint->pose.position - Eigen::Vector3d(0.6, 0, 0.5)).norm(), 1e-12);
-  EXPECT_EQ(done.setpoint->linear_velocity.norm(), 0);
+  EXPECT_LT(done.setpoint->linear_velocity.norm(), 1e-9);
 }
 
 TEST(Decision, ResumesFromAMissedForecastWithoutNamingIt) {
@@ -349,7 +349,8 @@ TEST(DecisionParameters, AreRefusedByName) {
       {"dwell_time", [](auto& p) { p.dwell_time = Duration{-1}; }},
       {"time_limit", [](auto& p) { p.time_limit = Duration{0}; }},
       {"tracking_tolerance", [](auto& p) { p.tracking_tolerance = NAN; }},
-      {"catch_up_speed", [](auto& p) { p.catch_up_speed.linear = 0; }},
+      {"catch_up_speed", [](auto& p) { p.catch_up.linear = 0; }},
+      {"catch_up_time", [](auto& p) { p.catch_up.time_constant = 0; }},
       {"max_reach", [](auto& p) { p.guards.max_reach = -1; }},
       {"initial", [](auto& p) { p.hmm.initial.setZero(); }},
   };

@@ -60,6 +60,7 @@ class DecisionRefusals(unittest.TestCase):
             ("dwell_time", nan, "dwell_time is nan"),
             ("time_limit", infinity, "time_limit is inf"),
             ("catch_up_speed", [0.2], "catch_up_speed"),
+            ("catch_up_time", 0.0, "catch_up_time is 0.000000, must be > 0"),
             ("catch_up_speed", [0.2, 0.0], "catch_up_speed angular is 0.000000, must be > 0"),
             ("coast_limits", [0.3, 0.2, 5.0], "coast_limits[1] is 0.200000, must be > coast"),
             ("max_reach", nan, "max_reach is nan, must be > 0"),

@@ -27,7 +27,7 @@ struct DecisionParameters {
   Duration dwell_time{0};         // least time in a state before the HMM may change it
   Duration time_limit{0};         // from the first tick
   double tracking_tolerance = 0;  // set-point to goal, m
-  CatchUpSpeed catch_up_speed;
+  CatchUp catch_up;
   GuardParameters guards;
   HmmParameters hmm;
 
