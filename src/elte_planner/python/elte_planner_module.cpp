@@ -11,6 +11,7 @@
 #include "elte_planner/edit_problem.hpp"
 #include "elte_planner/elte_energy.hpp"
 #include "elte_planner/endpoint_solver.hpp"
+#include "elte_planner/obstacle_avoidance.hpp"
 #include "elte_planner/skill_planner.hpp"
 
 namespace py = pybind11;
@@ -56,9 +57,11 @@ const char* name_of(PlanStatus status) {
   return "failed";
 }
 
-EditSolution edit(const Eigen::MatrixXd& zeta, const std::vector<PointConstraint>& constraints,
-                  const std::optional<Eigen::MatrixXd>& fixed, double w_elastic, double w_bending,
-                  const std::string& laplacian, double max_step, double max_first_step) {
+EditProblem problem_from(const Eigen::MatrixXd& zeta,
+                         const std::vector<PointConstraint>& constraints,
+                         const std::optional<Eigen::MatrixXd>& fixed, double w_elastic,
+                         double w_bending, const std::string& laplacian, double max_step,
+                         double max_first_step) {
   EditProblem problem;
   problem.zeta = zeta;
   problem.weights = weights_from(w_elastic, w_bending, laplacian);
@@ -66,7 +69,7 @@ EditSolution edit(const Eigen::MatrixXd& zeta, const std::vector<PointConstraint
   problem.constraints = constraints;
   problem.max_step = max_step;
   problem.max_first_step = max_first_step;
-  return solve(problem);
+  return problem;
 }
 
 void bind_solver(py::module_& m) {
@@ -79,6 +82,8 @@ void bind_solver(py::module_& m) {
   m.def(
       "box", &PointConstraint::box, py::arg("node"), py::arg("centre"), py::arg("half_widths"),
       "|y[node] - centre| <= half_widths, per dimension. centre, half_widths: (d,), inf is free.");
+  m.def("half_space", &PointConstraint::half_space, py::arg("node"), py::arg("boundary_point"),
+        py::arg("outward_normal"), "outward_normal . (y[node] - boundary_point) <= 0. Both: (d,).");
   m.def("equality", &PointConstraint::equality, py::arg("node"), py::arg("point"),
         "y[node] = point. point: (d,).");
 
@@ -96,7 +101,14 @@ void bind_solver(py::module_& m) {
       .def_readonly("active", &EditSolution::active, "Indices of the active constraints.")
       .def_readonly("iterations", &EditSolution::iterations);
 
-  m.def("solve", &edit, py::arg("zeta"), py::arg("constraints") = std::vector<PointConstraint>{},
+  const auto edit = [](const Eigen::MatrixXd& zeta, const std::vector<PointConstraint>& constraints,
+                       const std::optional<Eigen::MatrixXd>& fixed, double w_elastic,
+                       double w_bending, const std::string& laplacian, double max_step,
+                       double max_first_step) {
+    return solve(problem_from(zeta, constraints, fixed, w_elastic, w_bending, laplacian, max_step,
+                              max_first_step));
+  };
+  m.def("solve", edit, py::arg("zeta"), py::arg("constraints") = std::vector<PointConstraint>{},
         py::arg("fixed") = py::none(), py::kw_only(), py::arg("w_elastic") = 0.001,
         py::arg("w_bending") = 0.001, py::arg("laplacian") = "free_ends",
         py::arg("max_step") = std::numeric_limits<double>::infinity(),
@@ -126,6 +138,53 @@ void bind_endpoint_solver(py::module_& m) {
           py::arg("previous"), py::arg("executed"), py::arg("goal"), py::arg("radius") = 0.0,
           "The plan (T, d): rows [0, executed) as in previous, executed >= 2, the last row within\n"
           "radius of goal (d,).");
+}
+
+void bind_obstacles(py::module_& m) {
+  py::class_<Obstacle>(m, "Obstacle", "A convex obstacle; see disc_obstacle and box_obstacle.")
+      .def_readonly("centre", &Obstacle::centre);
+  m.def("disc_obstacle", &Obstacle::disc, py::arg("centre"), py::arg("radius"),
+        "Disc, in 3-D a sphere. centre: (d,).");
+  m.def("box_obstacle", &Obstacle::box, py::arg("centre"), py::arg("half_widths"),
+        "Axis-aligned box. centre, half_widths: (d,).");
+  m.def("polyline_clearance", &polyline_clearance, py::arg("y"), py::arg("obstacles"),
+        "Least distance of the polyline through y (T, d) from the obstacles.");
+
+  py::class_<AvoidanceSolution>(m, "AvoidanceSolution", "What avoid() found.")
+      .def_property_readonly(
+          "status", [](const AvoidanceSolution& s) { return name_of(s.status); },
+          "'solved', 'infeasible', 'ill_posed' or 'iteration_limit'.")
+      .def_readonly("message", &AvoidanceSolution::message, "Why it is not solved, one line.")
+      .def_property_readonly(
+          "y",
+          [](const AvoidanceSolution& s) {
+            return s.status == EditStatus::kSolved ? s.plan.y : Eigen::MatrixXd();
+          },
+          "Edited trajectory, (T, d); empty unless solved.")
+      .def_property_readonly("energy", [](const AvoidanceSolution& s) { return s.plan.energy; })
+      .def_readonly("clearance", &AvoidanceSolution::clearance, "Of the segments not fixed.")
+      .def_readonly("last_move", &AvoidanceSolution::last_move, "Of a coordinate, last pass.")
+      .def_readonly("passes", &AvoidanceSolution::passes)
+      .def_readonly("choices", &AvoidanceSolution::choices, "Of sides, tried.");
+
+  m.def(
+      "avoid",
+      [](const Eigen::MatrixXd& zeta, const std::vector<Obstacle>& obstacles, double clearance,
+         const std::vector<PointConstraint>& constraints,
+         const std::optional<Eigen::MatrixXd>& fixed, double w_elastic, double w_bending,
+         const std::string& laplacian, double max_step, double max_first_step) {
+        return avoid_obstacles({problem_from(zeta, constraints, fixed, w_elastic, w_bending,
+                                             laplacian, max_step, max_first_step),
+                                obstacles, clearance});
+      },
+      py::arg("zeta"), py::arg("obstacles"), py::arg("clearance"),
+      py::arg("constraints") = std::vector<PointConstraint>{}, py::arg("fixed") = py::none(),
+      py::kw_only(), py::arg("w_elastic") = 0.001, py::arg("w_bending") = 0.001,
+      py::arg("laplacian") = "free_ends",
+      py::arg("max_step") = std::numeric_limits<double>::infinity(),
+      py::arg("max_first_step") = std::numeric_limits<double>::infinity(),
+      "As solve(), and every segment that is not fixed keeps its distance from the obstacles: at\n"
+      "least clearance > 0, in the unit of zeta. A local minimum, the best of the sides tried.");
 }
 
 void bind_planners(py::module_& m) {
@@ -184,6 +243,7 @@ PYBIND11_MODULE(elte_planner, m) {
   m.doc() = "Elastic Laplacian trajectory editing: numpy in, numpy out. Rows are nodes.";
   bind_solver(m);
   bind_endpoint_solver(m);
+  bind_obstacles(m);
   bind_planners(m);
   bind_demonstration(m);
   m.def("confidence_radius", &confidence_radius, py::arg("covariance"), py::arg("probability"),

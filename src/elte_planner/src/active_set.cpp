@@ -12,6 +12,7 @@ void ActiveSet::reset(const StepChain* chain, Eigen::Index nodes, Eigen::Index d
     nodes_ = nodes;
     capacity_ = 0;
     normals_.resize(dimensions, 0);
+    basis_.resize(dimensions, dimensions + 1);
   }
   facets_.clear();
   column_users_.assign(column_users_.size(), 0);
@@ -79,25 +80,28 @@ void ActiveSet::update_direction() {
   }
 }
 
-bool ActiveSet::depends_on_active_facets_of_its_node() const {
-  const Eigen::Index d = normals_.rows();
-  Eigen::MatrixXd basis(d, size());
-  Eigen::Index rank = 0;
-  const auto residual_of = [&](Eigen::VectorXd vector) {
-    for (int pass = 0; pass < 2; ++pass) {
-      for (Eigen::Index b = 0; b < rank; ++b) {
-        vector -= basis.col(b).dot(vector) * basis.col(b);
-      }
+// Gram and Schmidt, twice for accuracy.
+void ActiveSet::orthogonalise(Eigen::Index vector) {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (Eigen::Index b = 0; b < vector; ++b) {
+      const double share = basis_.col(b).dot(basis_.col(vector));
+      basis_.col(vector) -= share * basis_.col(b);
     }
-    return vector;
-  };
+  }
+}
+
+bool ActiveSet::depends_on_active_facets_of_its_node() {
+  Eigen::Index rank = 0;
   for (Eigen::Index a = 0; a < size(); ++a) {
     if (!(*this)[a].same_place(candidate_)) continue;
-    const Eigen::VectorXd residual = residual_of(normals_.col(a));
-    basis.col(rank++) = residual.normalized();
+    basis_.col(rank) = normals_.col(a);
+    orthogonalise(rank);
+    basis_.col(rank++).normalize();
   }
   if (rank == 0) return false;
-  return residual_of(normals_.col(size())).norm() < 1e-9 * normals_.col(size()).norm();
+  basis_.col(rank) = normals_.col(size());
+  orthogonalise(rank);
+  return basis_.col(rank).norm() < 1e-9 * normals_.col(size()).norm();
 }
 
 void ActiveSet::accept(double multiplier) {

@@ -45,7 +45,7 @@ class ActiveSet {
   double pivot() const { return pivot_; }
   double own_product() const { return own_product_; }
   double direction(Eigen::Index a) const { return direction_[a]; }
-  bool depends_on_active_facets_of_its_node() const;
+  bool depends_on_active_facets_of_its_node();
 
   void accept(double multiplier);  // the candidate becomes the last facet
   void drop(Eigen::Index a);
@@ -60,6 +60,7 @@ class ActiveSet {
   void solve_gram(Eigen::VectorXd& values) const;
 
  private:
+  void orthogonalise(Eigen::Index vector);  // to those before it in basis_
   double value_at(const Facet& place, Eigen::Index column) const;
   void ensure_capacity(Eigen::Index facets);
   Eigen::Index column_for(const Facet& place);
@@ -73,6 +74,7 @@ class ActiveSet {
   Eigen::MatrixXd columns_;  // nodes x capacity
   Eigen::MatrixXd factor_;   // L, lower
   Facet candidate_;
+  Eigen::MatrixXd basis_;      // dimensions x (dimensions + 1), of the normals at one place
   Eigen::VectorXd products_;   // N' H^-1 n
   Eigen::VectorXd reduced_;    // L^-1 products
   Eigen::VectorXd direction_;  // r

@@ -57,22 +57,23 @@ void EditSolver::Workspace::refine(EditSolution& solution) {
   constexpr int kMaxPasses = 4;
   const double good_enough = 1e-14 * extent_ * (1.0 + problem_->weights.curvature());
   for (int pass = 0; pass < kMaxPasses && solution.kkt_residual > good_enough; ++pass) {
-    const EditSolution before = solution;
-    const Eigen::MatrixXd positions = y_;
-    const std::vector<Facet> facets = active_.facets();
+    solution_before_ = solution;
+    y_before_ = y_;
+    facets_before_ = active_.facets();
     newton_step();
     report(solution);
-    if (solution.kkt_residual < 0.5 * before.kkt_residual) continue;
-    solution = before;
-    y_ = positions;
-    active_.set_multipliers(facets);
+    if (solution.kkt_residual < 0.5 * solution_before_.kkt_residual) continue;
+    solution = solution_before_;
+    y_ = y_before_;
+    active_.set_multipliers(facets_before_);
     return;
   }
 }
 
 void EditSolver::Workspace::newton_step() {
   const Eigen::Index first = chain_.first_step();
-  compute_gradient(y_.rowwise() + origin_);
+  absolute_ = y_.rowwise() + origin_;
+  compute_gradient(absolute_);
   for (Eigen::Index j = 0; j < d_; ++j) {
     double sum = 0.0;
     double* v = steps_.col(j).data();
@@ -90,9 +91,11 @@ void EditSolver::Workspace::newton_step() {
   active_.solve_gram(values_);
   for (Eigen::Index a = 0; a < active_.size(); ++a) {
     active_[a].multiplier += values_[a];
-    const Eigen::VectorXd weights = values_[a] * active_.normal(a);
     const Eigen::Index count = n_ - first + 1;
-    y_.bottomRows(count) -= active_.column(a).tail(count) * weights.transpose();
+    for (Eigen::Index j = 0; j < d_; ++j) {
+      const double weight = values_[a] * active_.normal(a)[j];
+      y_.col(j).tail(count) -= weight * active_.column(a).tail(count);
+    }
   }
 }
 
@@ -105,7 +108,7 @@ void EditSolver::Workspace::compute_gradient(const Eigen::MatrixXd& y) {
   }
   for (Eigen::Index a = 0; a < active_.size(); ++a) {
     const Facet& facet = active_[a];
-    const Eigen::RowVectorXd force = facet.multiplier * active_.normal(a).transpose();
+    const auto force = facet.multiplier * active_.normal(a).transpose();
     gradient_.row(facet.index) += force;
     if (facet.on_step) gradient_.row(facet.index - 1) -= force;
   }
@@ -123,12 +126,8 @@ double EditSolver::Workspace::residual(const EditSolution& solution) {
   if (fixed_rows_ < n_) {
     worst = std::max(worst, gradient_.bottomRows(n_ - fixed_rows_).cwiseAbs().maxCoeff());
   }
-  for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
-    const PointConstraint& c = problem_->constraints[i];
-    const Eigen::VectorXd offset = solution.y.row(c.node).transpose() - c.centre;
-    const bool box = c.shape == PointConstraint::Shape::kBox;
-    worst = std::max(worst, box ? (offset.cwiseAbs() - c.half_widths).maxCoeff()
-                                : offset.lpNorm<1>() - c.radius);
+  for (const PointConstraint& c : problem_->constraints) {
+    worst = std::max(worst, elte_planner::violation_of(c, solution.y));
   }
   for (Eigen::Index i = chain_.first_step(); i < n_; ++i) {
     const double step = (solution.y.row(i) - solution.y.row(i - 1)).lpNorm<1>();

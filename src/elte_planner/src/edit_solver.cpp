@@ -98,10 +98,7 @@ bool EditSolver::Workspace::fixed_rows_are_feasible(EditSolution& solution) cons
   for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
     const PointConstraint& c = problem_->constraints[i];
     if (c.node >= fixed_rows_) continue;
-    const Eigen::VectorXd offset = problem_->fixed.row(c.node).transpose() - c.centre;
-    const bool box = c.shape == PointConstraint::Shape::kBox;
-    const double excess =
-        box ? (offset.cwiseAbs() - c.half_widths).maxCoeff() : offset.lpNorm<1>() - c.radius;
+    const double excess = elte_planner::violation_of(c, problem_->fixed);
     if (excess > settings_->tolerance * extent_ + 1e-15 * c.centre.cwiseAbs().maxCoeff()) {
       solution.message = name_of(static_cast<int>(i)) + " is violated by " +
                          std::to_string(excess) + " at a fixed row";
@@ -302,70 +299,6 @@ EditSolver::Workspace::Outcome EditSolver::Workspace::enter(double violation,
     active_.drop(leaving);
     active_.update_direction();
   }
-}
-
-void EditSolver::Workspace::offer_ball(int constraint, Eigen::Index index, bool on_step,
-                                       double radius, double& worst, Facet& best) {
-  double norm = 0.0;
-  double offset = radius;
-  for (Eigen::Index j = 0; j < d_; ++j) {
-    const double centre = on_step ? 0.0 : centres_(constraint, j);
-    const double x = on_step ? y_(index, j) - y_(index - 1, j) : y_(index, j);
-    const double sign = x < centre ? -1.0 : 1.0;
-    trial_normal_[j] = sign;
-    norm += std::abs(x - centre);
-    offset += sign * centre;
-  }
-  if (norm - radius <= worst) return;
-  worst = norm - radius;
-  best_normal_ = trial_normal_;
-  best = Facet{};
-  best.index = index;
-  best.on_step = on_step;
-  best.constraint = constraint;
-  best.offset = offset;
-}
-
-void EditSolver::Workspace::offer_box(int constraint, double& worst, Facet& best) {
-  const PointConstraint& c = problem_->constraints[static_cast<std::size_t>(constraint)];
-  for (Eigen::Index j = 0; j < d_; ++j) {
-    const double x = y_(c.node, j) - centres_(constraint, j);
-    const double excess = std::abs(x) - c.half_widths[j];
-    if (c.half_widths[j] == 0.0 || !(excess > worst)) continue;
-    worst = excess;
-    const double sign = x < 0.0 ? -1.0 : 1.0;
-    best_normal_.setZero();
-    best_normal_[j] = sign;
-    best = Facet{};
-    best.index = c.node;
-    best.constraint = constraint;
-    best.offset = sign * centres_(constraint, j) + c.half_widths[j];
-  }
-}
-
-bool EditSolver::Workspace::most_violated(Facet& facet, double& violation) {
-  double worst = tolerance_;
-  const auto& constraints = problem_->constraints;
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    const PointConstraint& c = constraints[i];
-    if (c.node < fixed_rows_ || is_equality(c)) continue;
-    if (c.shape == PointConstraint::Shape::kBox) {
-      offer_box(static_cast<int>(i), worst, facet);
-    } else {
-      offer_ball(static_cast<int>(i), c.node, false, c.radius, worst, facet);
-    }
-  }
-  if (!std::isinf(problem_->max_step) || !std::isinf(problem_->max_first_step)) {
-    const auto count = static_cast<int>(constraints.size());
-    for (Eigen::Index i = chain_.first_step(); i < n_; ++i) {
-      const double bound = i == chain_.first_step()
-                               ? std::min(problem_->max_step, problem_->max_first_step)
-                               : problem_->max_step;
-      if (!std::isinf(bound)) offer_ball(count, i, true, bound, worst, facet);
-    }
-  }
-  violation = worst;
-  return worst > tolerance_;
 }
 
 EditSolver::EditSolver() : workspace_(std::make_unique<Workspace>()) {}

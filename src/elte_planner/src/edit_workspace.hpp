@@ -37,6 +37,7 @@ class EditSolver::Workspace {
   void offer_ball(int constraint, Eigen::Index index, bool on_step, double radius, double& worst,
                   Facet& best);
   void offer_box(int constraint, double& worst, Facet& best);
+  void offer_half_space(int constraint, double& worst, Facet& best);
 
   void recompute_from_multipliers();
   void polish();
@@ -69,12 +70,20 @@ class EditSolver::Workspace {
   Eigen::MatrixXd centres_;   // constraints x dimensions, relative
   Eigen::MatrixXd right_;     // of the equations in the steps
   Eigen::MatrixXd y_;         // relative
+  Eigen::MatrixXd absolute_;
   Eigen::MatrixXd steps_;
   Eigen::MatrixXd gradient_;  // half that of the Lagrangian
   Eigen::VectorXd best_normal_;
   Eigen::VectorXd trial_normal_;
   Eigen::VectorXd values_;
+  // What stood before a step of refinement.
+  EditSolution solution_before_;
+  Eigen::MatrixXd y_before_;
+  std::vector<Facet> facets_before_;
 };
+
+// Largest excess over the constraint's bound, negative inside.
+double violation_of(const PointConstraint& c, const Eigen::MatrixXd& y);
 
 inline bool is_equality(const PointConstraint& c) {
   return c.shape == PointConstraint::Shape::kBall && c.radius == 0.0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "allocation_count.hpp"
 #include "elte_planner/endpoint_solver.hpp"
 #include "quad_reference.hpp"
 #include "random_problems.hpp"
@@ -40,7 +41,7 @@ EditProblem random_problem(std::mt19937& random, Index nodes, Index fixed) {
     const bool taken = std::count(places.begin(), places.end(), node) > 1;
     const Eigen::VectorXd centre =
         problem.zeta.row(node).transpose() + random_vector(d, 0.1, random);
-    switch (random_index(0, taken ? 0 : 2, random)) {
+    switch (random_index(0, taken ? 0 : 3, random)) {
       case 0:  // several balls on one node all hold the demonstrated point: they meet
         problem.constraints.push_back(PointConstraint::ball(
             node, centre,
@@ -48,6 +49,10 @@ EditProblem random_problem(std::mt19937& random, Index nodes, Index fixed) {
         break;
       case 1:
         problem.constraints.push_back(PointConstraint::equality(node, centre));
+        break;
+      case 2:
+        problem.constraints.push_back(
+            PointConstraint::half_space(node, centre, random_vector(d, 1.0, random)));
         break;
       default:
         problem.constraints.push_back(
@@ -77,6 +82,12 @@ void expect_optimal(const EditProblem& problem, const EditSolution& solution, do
       ASSERT_LE(offset.lpNorm<1>(), c.radius + tolerance);
       // f . (x - p) <= r |f|_inf for the ball's points, with equality at the solution.
       ASSERT_NEAR(f.dot(offset), c.radius * f.lpNorm<Eigen::Infinity>(), tolerance);
+    } else if (c.shape == PointConstraint::Shape::kHalfSpace) {
+      const Eigen::VectorXd normal = c.normal.normalized();
+      ASSERT_LE(normal.dot(offset), tolerance);
+      ASSERT_GE(normal.dot(f), -tolerance);
+      ASSERT_LE((f - normal.dot(f) * normal).norm(), tolerance);
+      ASSERT_NEAR(f.dot(offset), 0.0, tolerance);
     } else {
       for (Index j = 0; j < f.size(); ++j) {
         ASSERT_LE(std::abs(offset[j]), c.half_widths[j] + tolerance);
@@ -245,6 +256,27 @@ TEST(EditSolver, KeepsItsDigitsFarFromTheOrigin) {
   EXPECT_LE(((far.y.array() - 1048576.0).matrix() - near.y).cwiseAbs().maxCoeff(), 1e-7);
 }
 
+#ifdef ELTE_PLANNER_COUNTS_ALLOCATIONS
+TEST(EditSolver, DoesNotAllocateWhenSolvingAgain) {
+  std::mt19937 random(10);
+  int constrained = 0;
+  for (int i = 0; i < 200; ++i) {
+    EditProblem problem = random_problem(random, 60, 5);
+    problem.max_step = 10.0;
+    EditSolver solver;
+    EditSolution solution;
+    solver.solve(problem, {}, solution);
+    ASSERT_EQ(solution.status, EditStatus::kSolved) << solution.message;
+    const long before = g_allocations;
+    solver.solve(problem, {}, solution);
+    const long during = g_allocations - before;
+    ASSERT_EQ(during, 0) << "problem " << i;
+    if (solution.active_facets > 1) ++constrained;
+  }
+  EXPECT_GT(constrained, 100);
+}
+#endif
+
 struct Degenerate : testing::Test {
   Degenerate() {
     std::mt19937 random(9);
@@ -350,6 +382,13 @@ TEST_F(Degenerate, InvalidProblemsAreRefused) {
   refused([](EditProblem& p) { p.constraints[0].radius = std::nan(""); });
   refused([](EditProblem& p) { p.constraints[0].centre[0] = std::nan(""); });
   refused([](EditProblem& p) { p.constraints[0].centre.conservativeResize(2); });
+  refused([](EditProblem& p) {
+    p.constraints[0] = PointConstraint::half_space(29, p.constraints[0].centre, {});
+  });
+  refused([](EditProblem& p) {
+    const Eigen::Vector3d centre = p.constraints[0].centre;
+    p.constraints[0] = PointConstraint::half_space(29, centre, Eigen::Vector3d::Zero());
+  });
   refused([](EditProblem& p) { p.fixed = Eigen::MatrixXd::Zero(31, 3); });
   refused([](EditProblem& p) { p.fixed = Eigen::MatrixXd::Zero(2, 2); });
   refused([](EditProblem& p) { p.fixed(0, 0) = std::nan(""); });

@@ -8,22 +8,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "allocation_count.hpp"
 #include "quad_reference.hpp"
 #include "random_problems.hpp"
-
-#ifndef __SANITIZE_ADDRESS__
-#define ELTE_PLANNER_COUNTS_ALLOCATIONS
-extern "C" void* __libc_malloc(std::size_t size);
-
-namespace {
-long g_allocations = 0;
-}
-
-extern "C" void* malloc(std::size_t size) {
-  ++g_allocations;
-  return __libc_malloc(size);
-}
-#endif
 
 namespace elte_planner {
 namespace {

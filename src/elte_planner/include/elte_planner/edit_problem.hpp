@@ -5,6 +5,7 @@
 //   minimise J(y) of elte_energy.hpp over the rows of y after the fixed ones, subject to
 //     |y_j - p|_1 <= r         ball (r = 0: equality)
 //     |y_j - p| <= h           box, per dimension (h = 0: equality, infinity: free)
+//     n . (y_j - p) <= 0       half-space
 //     |y_k - y_{k-1}|_1 <= s   step bound, optional, for every step that is not fixed
 //
 // Nodes count from 0; all lengths in the unit of the demonstration.
@@ -21,18 +22,21 @@
 namespace elte_planner {
 
 struct PointConstraint {
-  enum class Shape { kBall, kBox };
+  enum class Shape { kBall, kBox, kHalfSpace };
 
   static PointConstraint ball(Eigen::Index node, Eigen::VectorXd centre, double radius);
   static PointConstraint box(Eigen::Index node, Eigen::VectorXd centre,
                              Eigen::VectorXd half_widths);
+  static PointConstraint half_space(Eigen::Index node, Eigen::VectorXd boundary_point,
+                                    Eigen::VectorXd outward_normal);
   static PointConstraint equality(Eigen::Index node, Eigen::VectorXd point);
 
   Shape shape = Shape::kBall;
   Eigen::Index node = 0;
-  Eigen::VectorXd centre;
+  Eigen::VectorXd centre;       // of a half-space: a point of its boundary
   double radius = 0.0;          // of a ball
   Eigen::VectorXd half_widths;  // of a box
+  Eigen::VectorXd normal;       // of a half-space, of any length but 0
 };
 
 struct EditProblem {
@@ -67,7 +71,7 @@ struct EditSolution {
 
   // Force of each constraint on its node, constraints x dimensions: the gradient of J is minus
   // their sum. For a ball the largest of its entries is -dJ/dr, for an equality minus the force is
-  // dJ/dp. Row i is zero when constraint i is not active.
+  // dJ/dp; that of a half-space is along its normal. Row i is zero when constraint i is not active.
   Eigen::MatrixXd forces;
   std::vector<int> active;  // constraints with a facet in the active set
   int active_facets = 0;    // of constraints and step bounds
@@ -77,7 +81,8 @@ struct EditSolution {
 // Dual active-set method (Goldfarb and Idnani 1983). In the steps between nodes the Hessian is a
 // tridiagonal M-matrix whose factor is computed without subtractions; of the 2^d facets of a ball
 // only the violated one, sign(y_j - p), is ever formed.
-// Keeps its memory: solving again for the same sizes does not allocate.
+// Keeps its memory: solving again with the same sizes, at least two fixed rows and no more active
+// facets than before does not allocate.
 class EditSolver {
  public:
   EditSolver();

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// ELTE whose polyline, not only its nodes, keeps a clearance from obstacles:
+//
+//   minimise J(y) under the constraints of edit_problem.hpp, subject to
+//     distance(segment y_{k-1} y_k, obstacle) >= clearance   for every segment that is not fixed
+//
+// Both ends of a segment beyond a plane that the obstacle touches, `clearance` away from it, is
+// enough for the whole segment. The planes are taken from the present plan's nearest points and the
+// convex problem is solved again until the plan rests: from a plan that keeps the clearance the
+// next one does, too, at no more energy. Where a plan runs into an obstacle, the sides on which it
+// could pass are tried in turn and the plan of least energy is taken: a local minimum, the best of
+// those tried.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "elte_planner/edit_problem.hpp"
+#include "elte_planner/obstacle.hpp"
+
+namespace elte_planner {
+
+struct AvoidanceProblem {
+  EditProblem edit;
+  std::vector<Obstacle> obstacles;
+  double clearance = 0.0;  // in the unit of the demonstration, > 0
+
+  void validate() const;  // throws std::invalid_argument
+};
+
+struct AvoidanceSettings {
+  int max_passes = 200;     // convex problems per choice of sides
+  int max_choices = 64;     // of sides
+  double tolerance = 1e-9;  // of rest, relative to the extent of the demonstration
+};
+
+struct AvoidanceSolution {
+  EditStatus status = EditStatus::kIllPosed;
+  std::string message;     // one line when not solved
+  EditSolution plan;       // of the last convex problem
+  double clearance = 0.0;  // of the polyline from the last fixed row on
+  double last_move = 0.0;  // largest coordinate change of the last pass
+  int passes = 0;          // of the choice taken
+  int choices = 0;         // tried
+};
+
+// Throws std::invalid_argument for an invalid problem. Infeasible: no way was found on any side, or
+// the problem without obstacles is infeasible already; the message says which.
+[[nodiscard]] AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
+                                                const AvoidanceSettings& settings = {});
+
+}  // namespace elte_planner

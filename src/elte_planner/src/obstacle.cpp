@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/obstacle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace elte_planner {
+namespace {
+
+// From the nearest point of the box to x.
+Eigen::VectorXd beyond_box(const Obstacle& box, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd offset = x - box.centre;
+  return offset - offset.cwiseMax(-box.half_widths).cwiseMin(box.half_widths);
+}
+
+// Where on the segment the distance from the box is least. Half the derivative of its square is
+// non-decreasing and linear between the places where a coordinate meets a face.
+double nearest_to_box(const Obstacle& box, const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  const Eigen::VectorXd direction = to - from;
+  std::vector<double> breaks = {0.0, 1.0};
+  for (Eigen::Index j = 0; j < direction.size(); ++j) {
+    if (direction[j] == 0.0) continue;
+    for (const double side : {-1.0, 1.0}) {
+      const double t = (box.centre[j] + side * box.half_widths[j] - from[j]) / direction[j];
+      if (t > 0.0 && t < 1.0) breaks.push_back(t);
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  const auto slope = [&](double t) { return direction.dot(beyond_box(box, from + t * direction)); };
+  double before = slope(0.0);
+  if (before >= 0.0) return 0.0;
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double after = slope(breaks[i]);
+    if (after >= 0.0) {
+      return breaks[i - 1] - before / (after - before) * (breaks[i] - breaks[i - 1]);
+    }
+    before = after;
+  }
+  return 1.0;
+}
+
+double nearest_to_point(const Eigen::VectorXd& point, const Eigen::VectorXd& from,
+                        const Eigen::VectorXd& to) {
+  const Eigen::VectorXd direction = to - from;
+  const double square = direction.squaredNorm();
+  return square > 0.0 ? std::clamp(direction.dot(point - from) / square, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+Obstacle Obstacle::disc(Eigen::VectorXd centre, double radius) {
+  return {Shape::kDisc, std::move(centre), radius, {}};
+}
+
+Obstacle Obstacle::box(Eigen::VectorXd centre, Eigen::VectorXd half_widths) {
+  return {Shape::kBox, std::move(centre), 0.0, std::move(half_widths)};
+}
+
+void Obstacle::validate(Eigen::Index dimensions) const {
+  const bool is_box = shape == Shape::kBox;
+  if (centre.size() != dimensions || (is_box && half_widths.size() != dimensions)) {
+    throw std::invalid_argument("obstacle has " + std::to_string(centre.size()) +
+                                " coordinates, must have " + std::to_string(dimensions));
+  }
+  if (!centre.allFinite()) throw std::invalid_argument("obstacle's centre is not finite");
+  const double least = is_box ? half_widths.minCoeff() : radius;
+  if (!(least >= 0.0) || (is_box && !half_widths.allFinite()) || !std::isfinite(radius)) {
+    throw std::invalid_argument("obstacle has a size of " + std::to_string(least) +
+                                ", must be finite and at least 0");
+  }
+}
+
+double Obstacle::reach(const Eigen::VectorXd& direction) const {
+  return shape == Shape::kBox ? direction.cwiseAbs().dot(half_widths) : radius * direction.norm();
+}
+
+Separation separation(const Obstacle& obstacle, const Eigen::VectorXd& from,
+                      const Eigen::VectorXd& to) {
+  const bool is_box = obstacle.shape == Obstacle::Shape::kBox;
+  const double t =
+      is_box ? nearest_to_box(obstacle, from, to) : nearest_to_point(obstacle.centre, from, to);
+  const Eigen::VectorXd nearest = from + t * (to - from);
+  const Eigen::VectorXd offset =
+      is_box ? beyond_box(obstacle, nearest) : Eigen::VectorXd(nearest - obstacle.centre);
+  const double distance = offset.norm() - obstacle.radius;
+  if (!(distance > 0.0)) return {};
+  return {distance, offset.normalized()};
+}
+
+double polyline_clearance(const Eigen::MatrixXd& y, const std::vector<Obstacle>& obstacles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : obstacles) {
+    for (Eigen::Index k = 0; k + 1 < y.rows(); ++k) {
+      least = std::min(
+          least, separation(obstacle, y.row(k).transpose(), y.row(k + 1).transpose()).distance);
+    }
+  }
+  return least;
+}
+
+}  // namespace elte_planner

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/obstacle_avoidance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace elte_planner {
+namespace {
+
+using Index = Eigen::Index;
+
+class Avoidance {
+ public:
+  Avoidance(const AvoidanceProblem& problem, const AvoidanceSettings& settings)
+      : problem_(problem), settings_(settings), sides_(problem.obstacles.size()) {
+    const Eigen::MatrixXd& zeta = problem.edit.zeta;
+    extent_ = std::max(1e-300, (zeta.rowwise() - zeta.row(0)).cwiseAbs().maxCoeff());
+    first_ = std::max<Index>(problem.edit.fixed.rows(), 1);
+  }
+
+  AvoidanceSolution solve() {
+    EditSolver().solve(problem_.edit, {}, best_.plan);
+    best_.status = best_.plan.status;
+    best_.message = best_.plan.message;
+    if (best_.status != EditStatus::kSolved) return best_;
+    best_.status = EditStatus::kInfeasible;
+    const EditSolution unobstructed = best_.plan;
+    explore(unobstructed);
+    if (best_.status == EditStatus::kInfeasible) {
+      best_.message = "no way found around obstacle " + std::to_string(last_hit_);
+    }
+    best_.choices = choices_;
+    return best_;
+  }
+
+ private:
+  Separation separation_of(const Eigen::MatrixXd& y, Index k, std::size_t obstacle) const {
+    return separation(problem_.obstacles[obstacle], y.row(k - 1).transpose(), y.row(k).transpose());
+  }
+
+  bool is_clear(double distance) const { return distance >= problem_.clearance - 1e-12 * extent_; }
+
+  bool keeps_clearance(const Eigen::MatrixXd& y, std::size_t obstacle) const {
+    for (Index k = first_; k < y.rows(); ++k) {
+      if (!is_clear(separation_of(y, k, obstacle).distance)) return false;
+    }
+    return true;
+  }
+
+  bool keeps_clearance(const Eigen::MatrixXd& y) const {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (!keeps_clearance(y, i)) return false;
+    }
+    return true;
+  }
+
+  // The first obstacle without a side that the plan comes too near, else the number of obstacles.
+  std::size_t first_hit(const Eigen::MatrixXd& y) const {
+    std::size_t i = 0;
+    while (i < sides_.size() && (sides_[i].size() > 0 || keeps_clearance(y, i))) ++i;
+    return i;
+  }
+
+  // Unit vectors across the part of the plan that is too near the obstacle.
+  std::vector<Eigen::VectorXd> sides_of(std::size_t obstacle, const Eigen::MatrixXd& y) const {
+    Index begin = 0;
+    Index end = 0;
+    for (Index k = first_; k < y.rows(); ++k) {
+      if (is_clear(separation_of(y, k, obstacle).distance)) continue;
+      if (end == 0) begin = k - 1;
+      end = k;
+    }
+    const Eigen::VectorXd along = (y.row(end) - y.row(begin)).transpose().normalized();
+    std::vector<Eigen::VectorXd> sides;
+    for (Index j = 0; j < y.cols(); ++j) {
+      Eigen::VectorXd side = Eigen::VectorXd::Unit(y.cols(), j) - along[j] * along;
+      if (!(side.norm() > 0.1)) continue;
+      side.normalize();
+      const auto same = [&](const Eigen::VectorXd& s) { return std::abs(s.dot(side)) > 0.99; };
+      if (std::any_of(sides.begin(), sides.end(), same)) continue;
+      sides.push_back(side);
+      sides.push_back(-side);
+    }
+    return sides;
+  }
+
+  // Depth first over the sides of the obstacles that plans run into.
+  void explore(const EditSolution& start) {
+    if (++choices_ > settings_.max_choices) return;
+    EditSolution plan = start;
+    AvoidanceSolution found;
+    const std::size_t hit = descend(plan, found);
+    if (hit == problem_.obstacles.size()) {
+      const bool better =
+          best_.status == EditStatus::kInfeasible || found.plan.energy < best_.plan.energy;
+      if (found.status == EditStatus::kSolved && better) best_ = found;
+      return;
+    }
+    last_hit_ = hit;
+    for (const Eigen::VectorXd& side : sides_of(hit, plan.y)) {
+      sides_[hit] = side;
+      explore(plan);
+    }
+    sides_[hit].resize(0);
+  }
+
+  // Solves again until the plan rests (`found` is then filled) or runs into an obstacle that has
+  // no side yet, which is returned.
+  std::size_t descend(EditSolution& plan, AvoidanceSolution& found) {
+    bool clear = false;
+    for (int pass = 1; pass <= settings_.max_passes; ++pass) {
+      const std::size_t hit = first_hit(plan.y);
+      if (hit < sides_.size()) return hit;
+      EditProblem convex = problem_.edit;
+      add_planes(plan.y, convex);
+      EditSolution next;
+      solver_.solve(convex, {}, next);
+      if (next.status != EditStatus::kSolved) break;
+      clear = keeps_clearance(next.y);
+      found.passes = pass;
+      found.last_move = (next.y - plan.y).cwiseAbs().maxCoeff();
+      plan = next;
+      if (clear && found.last_move <= settings_.tolerance * extent_) break;
+    }
+    if (clear) {
+      found.status = EditStatus::kSolved;
+      found.plan = plan;
+      found.clearance =
+          polyline_clearance(plan.y.bottomRows(plan.y.rows() - first_ + 1), problem_.obstacles);
+    }
+    return sides_.size();
+  }
+
+  void add_planes(const Eigen::MatrixXd& y, EditProblem& convex) const {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const Obstacle& obstacle = problem_.obstacles[i];
+      for (Index k = first_; k < y.rows(); ++k) {
+        const Separation present = separation_of(y, k, i);
+        const Eigen::VectorXd& away = present.distance > 0.0 ? present.normal : sides_[i];
+        const Eigen::VectorXd boundary =
+            obstacle.centre + (obstacle.reach(away) + problem_.clearance) * away;
+        for (const Index node : {k - 1, k}) {
+          if (node < problem_.edit.fixed.rows()) continue;
+          convex.constraints.push_back(PointConstraint::half_space(node, boundary, -away));
+        }
+      }
+    }
+  }
+
+  const AvoidanceProblem& problem_;
+  const AvoidanceSettings& settings_;
+  std::vector<Eigen::VectorXd> sides_;  // where to pass each obstacle; empty: not run into yet
+  double extent_ = 1.0;
+  Index first_ = 1;
+  EditSolver solver_;
+  int choices_ = 0;
+  std::size_t last_hit_ = 0;
+  AvoidanceSolution best_;
+};
+
+}  // namespace
+
+void AvoidanceProblem::validate() const {
+  edit.validate();
+  for (const Obstacle& obstacle : obstacles) obstacle.validate(edit.zeta.cols());
+  if (!(clearance > 0.0) || !std::isfinite(clearance)) {
+    throw std::invalid_argument("clearance is " + std::to_string(clearance) +
+                                ", must be finite and above 0");
+  }
+}
+
+AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
+                                  const AvoidanceSettings& settings) {
+  problem.validate();
+  return Avoidance(problem, settings).solve();
+}
+
+}  // namespace elte_planner
