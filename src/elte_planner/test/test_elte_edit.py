@@ -10,7 +10,8 @@ import elte_planner
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-COMMAND = os.path.join(HERE, "..", "scripts", "elte_edit")
+SCRIPTS = os.path.join(HERE, "..", "scripts")
+COMMAND = os.path.join(SCRIPTS, "elte_edit")
 DEMONSTRATION = os.path.join(HERE, "reach.csv")
 
 
@@ -44,12 +45,60 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "node 40"):
             elte_planner.solve(arc(), [elte_planner.ball(40, np.zeros(2), 0.1)])
 
+    def test_avoid_keeps_the_clearance_and_says_when_it_cannot(self):
+        zeta = arc()
+        goal = [elte_planner.equality(39, np.array([-1.1, 0.0]))]
+        obstacles = [elte_planner.disc_obstacle(np.array([0.0, 1.0]), 0.1),
+                     elte_planner.box_obstacle(np.array([-0.8, 0.7]), np.array([0.05, 0.1]))]
+        solution = elte_planner.avoid(zeta, obstacles, 0.05, goal, zeta[:5])
+        self.assertEqual(solution.status, "solved", solution.message)
+        self.assertGreaterEqual(solution.clearance, 0.05 - 1e-12)
+        self.assertGreaterEqual(
+            elte_planner.polyline_clearance(solution.y[4:], obstacles), 0.05 - 1e-12)
+        obstacles.append(elte_planner.disc_obstacle(np.array([-1.1, 0.0]), 0.01))
+        blocked = elte_planner.avoid(zeta, obstacles, 0.05, goal, zeta[:5])
+        self.assertEqual(blocked.status, "infeasible")
+        self.assertEqual(blocked.y.size, 0)
+        with self.assertRaisesRegex(ValueError, "clearance is 0"):
+            elte_planner.avoid(zeta, obstacles, 0.0)
+
     def test_endpoint_solver_agrees_with_the_general_one(self):
         zeta = arc()
         goal = np.array([-1.2, 0.1])
         closed = elte_planner.EndpointSolver(zeta).solve(zeta, 10, goal, 0.05)
         general = elte_planner.solve(zeta, [elte_planner.ball(39, goal, 0.05)], zeta[:10]).y
         np.testing.assert_allclose(closed, general, atol=1e-13)
+
+
+class Figures(unittest.TestCase):
+    def run_command(self, *arguments):
+        return subprocess.run(
+            ["/usr/bin/python3", os.path.join(SCRIPTS, "paper_figures"), *arguments], text=True,
+            timeout=120, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+
+    def test_are_drawn_and_their_numbers_say_what_the_paper_claims(self):
+        with tempfile.TemporaryDirectory() as folder:
+            numbers = os.path.join(folder, "numbers.json")
+            run = self.run_command("--out", folder, "--json", numbers)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            for name in ("continuations.png", "moving_end.png", "corners.png"):
+                self.assertGreater(os.path.getsize(os.path.join(folder, name)), 10000)
+            with open(numbers, encoding="utf-8") as file:
+                content = json.load(file)
+        self.assertEqual(len(content["continuations"]), 5)
+        for continuation in content["continuations"]:
+            self.assertGreaterEqual(continuation["clearance"], 0.15 - 1e-12)
+            self.assertEqual(continuation["end_point_error"], 0.0)
+        self.assertLess(content["moving_end"]["end_point_error"], 1e-14)
+        for case in ("unperturbed", "perturbed"):
+            elte, dmp = (content["corners"][f"{planner}, {case}"] for planner in ("elte", "dmp"))
+            for figure in elte:
+                self.assertLess(elte[figure], dmp[figure])
+
+    def test_a_folder_that_cannot_be_made_is_one_line_and_exit_code_2(self):
+        run = self.run_command("--out", DEMONSTRATION)
+        self.assertEqual(run.returncode, 2)
+        self.assertEqual(len(run.stderr.splitlines()), 1)
 
 
 class Command(unittest.TestCase):
