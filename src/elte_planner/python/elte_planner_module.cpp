@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "elte_planner/combine_demonstrations.hpp"
 #include "elte_planner/confidence_radius.hpp"
 #include "elte_planner/demonstration.hpp"
 #include "elte_planner/edit_problem.hpp"
@@ -232,7 +233,25 @@ void bind_demonstration(py::module_& m) {
             return result;
           },
           "(N, 4), x y z w.")
-      .def("resampled_by_arc_length", &Demonstration::resampled_by_arc_length, py::arg("nodes"));
+      .def("resampled_by_arc_length", &Demonstration::resampled_by_arc_length, py::arg("nodes"),
+           "nodes samples equally spaced along the path.")
+      .def("resampled_by_douglas_peucker", &Demonstration::resampled_by_douglas_peucker,
+           py::arg("nodes"), "The nodes samples that keep the shape best, as demonstrated.");
+  m.def(
+      "combine",
+      [](const std::vector<Demonstration>& demonstrations, std::size_t nodes,
+         const std::string& alignment) {
+        if (alignment != "arc_length" && alignment != "dynamic_time_warping") {
+          throw std::invalid_argument("alignment is '" + alignment +
+                                      "', must be 'arc_length' or 'dynamic_time_warping'");
+        }
+        return combined(
+            demonstrations, nodes,
+            alignment == "arc_length" ? Alignment::kArcLength : Alignment::kDynamicTimeWarping);
+      },
+      py::arg("demonstrations"), py::arg("nodes"), py::kw_only(),
+      py::arg("alignment") = "arc_length",
+      "The mean of several demonstrations of one skill, relative to their targets, as one.");
   m.def("load_demonstration", &load_demonstration, py::arg("path"),
         "Read the CSV form; raises ValueError with file, line, column, value and bound.");
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <queue>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -50,6 +51,40 @@ TimedPose interpolated(const TimedPose& a, const TimedPose& b, double fraction) 
   return {a.time + fraction * (b.time - a.time),
           {a.pose.position + fraction * (b.pose.position - a.pose.position),
            a.pose.orientation.slerp(fraction, b.pose.orientation)}};
+}
+
+double distance_from_segment(const Eigen::Vector3d& point, const Eigen::Vector3d& from,
+                             const Eigen::Vector3d& to) {
+  const Eigen::Vector3d along = to - from;
+  const double square = along.squaredNorm();
+  const double share = square > 0.0 ? std::clamp(along.dot(point - from) / square, 0.0, 1.0) : 0.0;
+  return (point - from - share * along).norm();
+}
+
+// Samples between two that are taken, and the one of them farthest from the line.
+struct Gap {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::size_t farthest = 0;
+  double distance = -1.0;
+
+  bool operator<(const Gap& other) const {
+    return std::make_pair(distance, last - first) <
+           std::make_pair(other.distance, other.last - other.first);
+  }
+};
+
+Gap gap_between(std::size_t first, std::size_t last, const std::vector<TimedPose>& samples) {
+  Gap gap{first, last, first, -1.0};
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double distance = distance_from_segment(
+        samples[i].pose.position, samples[first].pose.position, samples[last].pose.position);
+    if (distance > gap.distance) {
+      gap.farthest = i;
+      gap.distance = distance;
+    }
+  }
+  return gap;
 }
 
 }  // namespace
@@ -122,6 +157,29 @@ Demonstration Demonstration::resampled_by_arc_length(std::size_t nodes) const {
     result.push_back(interpolated(samples_[i - 1], samples_[i], fraction));
   }
   result.push_back(samples_.back());
+  return Demonstration(std::move(result), frame_, child_frame_, target_);
+}
+
+Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) const {
+  if (nodes < kMinSamples || nodes > samples_.size()) {
+    refuse("resampling to " + text(nodes) + " nodes, must be within [" + text(kMinSamples) + ", " +
+           text(samples_.size()) + "], the number of samples");
+  }
+  std::vector<bool> taken(samples_.size(), false);
+  taken.front() = taken.back() = true;
+  std::priority_queue<Gap> gaps;
+  gaps.push(gap_between(0, samples_.size() - 1, samples_));
+  for (std::size_t count = 2; count < nodes; ++count) {
+    const Gap widest = gaps.top();
+    gaps.pop();
+    taken[widest.farthest] = true;
+    gaps.push(gap_between(widest.first, widest.farthest, samples_));
+    gaps.push(gap_between(widest.farthest, widest.last, samples_));
+  }
+  std::vector<TimedPose> result;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (taken[i]) result.push_back(samples_[i]);
+  }
   return Demonstration(std::move(result), frame_, child_frame_, target_);
 }
 

@@ -42,6 +42,42 @@ TEST(DemonstrationFile, ToleratesBlankLinesCommentsAndWindowsLineEnds) {
   EXPECT_EQ(demonstration.samples().size(), 3u);
 }
 
+TEST(DouglasPeucker, TakesCornersFirstAndKeepsTheirTimes) {
+  std::vector<TimedPose> samples;
+  const double corners[][2] = {{0, 0}, {1, 0}, {1, 1}, {3, 1}};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 7; ++k) {
+      const double s = k / 7.0;
+      samples.push_back({static_cast<double>(samples.size()),
+                         {{(1 - s) * corners[i][0] + s * corners[i + 1][0],
+                           (1 - s) * corners[i][1] + s * corners[i + 1][1], 0.0},
+                          Eigen::Quaterniond::Identity()}});
+    }
+  }
+  samples.push_back({21.0, {{3, 1, 0}, Eigen::Quaterniond::Identity()}});
+  const Demonstration drawn(samples, "arm", "hand", Pose{});
+  const Demonstration four = drawn.resampled_by_douglas_peucker(4);
+  ASSERT_EQ(four.samples().size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(four.samples()[i].time, 7.0 * double(i));
+  EXPECT_NEAR(four.length(), drawn.length(), 1e-12);
+}
+
+TEST(DouglasPeucker, TakesAnyNumberUpToAllOfTheSamples) {
+  std::vector<TimedPose> samples;
+  for (int i = 0; i < 60; ++i) {  // with points repeated
+    const double s = 0.1 * (i / 2);
+    samples.push_back({0.1 * i, {{s, std::sin(s), 0.0}, Eigen::Quaterniond::Identity()}});
+  }
+  const Demonstration wave(samples, "arm", "hand", Pose{});
+  for (std::size_t nodes = 3; nodes <= 60; ++nodes) {
+    const Demonstration fewer = wave.resampled_by_douglas_peucker(nodes);
+    ASSERT_EQ(fewer.samples().size(), nodes);
+    ASSERT_EQ(fewer.samples().back().time, samples.back().time);
+  }
+  EXPECT_THROW((void)wave.resampled_by_douglas_peucker(2), std::invalid_argument);
+  EXPECT_THROW((void)wave.resampled_by_douglas_peucker(61), std::invalid_argument);
+}
+
 const std::string kHead = std::string(kMetadata) + kHeader;
 
 class BadDemonstrationFile : public testing::TestWithParam<std::pair<std::string, std::string>> {};

@@ -45,6 +45,17 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "node 40"):
             elte_planner.solve(arc(), [elte_planner.ball(40, np.zeros(2), 0.1)])
 
+    def test_demonstrations_are_thinned_and_combined(self):
+        demonstration = elte_planner.load_demonstration(DEMONSTRATION)
+        few = demonstration.resampled_by_douglas_peucker(6)
+        self.assertTrue(set(few.times) <= set(demonstration.times))
+        for alignment in ("arc_length", "dynamic_time_warping"):
+            mean = elte_planner.combine([demonstration, demonstration], 30, alignment=alignment)
+            np.testing.assert_allclose(
+                mean.positions, demonstration.resampled_by_arc_length(30).positions, atol=1e-12)
+        with self.assertRaisesRegex(ValueError, "alignment is 'x'"):
+            elte_planner.combine([demonstration], 30, alignment="x")
+
     def test_avoid_keeps_the_clearance_and_says_when_it_cannot(self):
         zeta = arc()
         goal = [elte_planner.equality(39, np.array([-1.1, 0.0]))]

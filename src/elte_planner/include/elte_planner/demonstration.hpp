@@ -59,6 +59,11 @@ class Demonstration {
   // its place on the path. First and last sample are kept.
   [[nodiscard]] Demonstration resampled_by_arc_length(std::size_t nodes) const;
 
+  // The `nodes` samples that Douglas and Peucker's subdivision takes first: always the sample
+  // farthest from the lines between those taken. Poses and times as demonstrated. There must be as
+  // many samples.
+  [[nodiscard]] Demonstration resampled_by_douglas_peucker(std::size_t nodes) const;
+
  private:
   std::vector<TimedPose> samples_;
   std::string frame_;
