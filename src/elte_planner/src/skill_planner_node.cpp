@@ -21,11 +21,12 @@ class SkillPlannerNode {
       : frame_(params.frame), session_(params.session, demonstration(params)) {
     warn_of_lost_shape(params.session.weights);
     const auto hints = ros::TransportHints().tcpNoDelay();
-    trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>("skill/trajectory", 100);
     forecast_ =
         node_.subscribe("target/forecast", 100, &SkillPlannerNode::on_forecast, this, hints);
     progress_ =
         node_.subscribe("execution/progress", 1000, &SkillPlannerNode::on_progress, this, hints);
+    // After subscribing: who sees this publisher may start, nothing will be missed.
+    trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>("skill/trajectory", 100);
     updater_.setHardwareID("none");
     updater_.add("planner", this, &SkillPlannerNode::diagnose);
   }

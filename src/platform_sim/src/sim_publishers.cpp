@@ -9,7 +9,7 @@
 namespace platform_sim {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 100;
+constexpr std::uint32_t kQueueSize = 1000;
 constexpr std::uint32_t kImageQueueSize = 10;
 const std::string kOpticalFrame = "camera_optical_frame";
 const std::string kEndEffector = "j2s7s300_end_effector";

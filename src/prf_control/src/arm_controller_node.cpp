@@ -16,14 +16,15 @@ class ArmControllerNode {
  public:
   ArmControllerNode(ros::NodeHandle& node, const NodeParams& params)
       : params_(params), controller_(params.controller) {
-    command_ = node.advertise<trajectory_msgs::JointTrajectory>("joint_command", 100);
-    status_ = node.advertise<prf_msgs::ControlStatus>("control/status", 100);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("control", this, &ArmControllerNode::diagnose);
     const auto hints = ros::TransportHints().tcpNoDelay();
     joints_ = node.subscribe("joint_states", 1000, &ArmControllerNode::on_joints, this, hints);
     setpoint_ =
         node.subscribe("execution/setpoint", 1000, &ArmControllerNode::on_setpoint, this, hints);
+    // After subscribing: who sees this publisher may start, nothing will be missed.
+    status_ = node.advertise<prf_msgs::ControlStatus>("control/status", 1000);
+    command_ = node.advertise<trajectory_msgs::JointTrajectory>("joint_command", 1000);
   }
 
  private:

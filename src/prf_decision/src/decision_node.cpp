@@ -18,15 +18,16 @@ class DecisionNode {
  public:
   explicit DecisionNode(const NodeParameters& parameters)
       : parameters_(parameters), gate_(parameters.gate), decision_(parameters.decision) {
-    progress_publisher_ =
-        node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
-    setpoint_publisher_ =
-        node_.advertise<trajectory_msgs::MultiDOFJointTrajectory>("execution/setpoint", kQueue);
     const auto hints = ros::TransportHints().tcpNoDelay();
     subscribers_ = {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
         node_.subscribe("target/forecast", kQueue, &DecisionNode::on_forecast, this, hints),
         node_.subscribe("skill/trajectory", kQueue, &DecisionNode::on_trajectory, this, hints)};
+    // After subscribing: who sees this publisher may start, nothing will be missed.
+    setpoint_publisher_ =
+        node_.advertise<trajectory_msgs::MultiDOFJointTrajectory>("execution/setpoint", kQueue);
+    progress_publisher_ =
+        node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("decision", this, &DecisionNode::diagnose);
   }

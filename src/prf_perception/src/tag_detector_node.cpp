@@ -24,8 +24,7 @@ class TagDetectorNode {
   TagDetectorNode(ros::NodeHandle node, const NodeParams& params)
       : params_(params),
         detector_(params.detector),
-        join_(static_cast<std::int64_t>(params.info_wait * 1e9)),
-        publisher_(node.advertise<prf_msgs::TagDetectionArray>("tag_detections", 100)) {
+        join_(static_cast<std::int64_t>(params.info_wait * 1e9)) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     updater_.setHardwareID("none");
     updater_.add("images", this, &TagDetectorNode::diagnose);
@@ -33,6 +32,8 @@ class TagDetectorNode {
         node.subscribe("camera/camera_info", 100, &TagDetectorNode::on_info, this, hints);
     image_subscriber_ =
         node.subscribe("camera/image_raw", 10, &TagDetectorNode::on_image, this, hints);
+    // After subscribing: who sees this publisher may start, nothing will be missed.
+    publisher_ = node.advertise<prf_msgs::TagDetectionArray>("tag_detections", 100);
   }
 
  private:

@@ -24,8 +24,7 @@ class TargetPredictorNode {
   TargetPredictorNode(ros::NodeHandle node, const NodeParams& params)
       : params_(params),
         transforms_(params.planning_frame, ros::Duration(params.tf_wait)),
-        tracker_(params.tracker, std::make_shared<DecayingVelocity>(params.motion)),
-        publisher_(node.advertise<prf_msgs::TargetForecast>("target/forecast", 100)) {
+        tracker_(params.tracker, std::make_shared<DecayingVelocity>(params.motion)) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     updater_.setHardwareID("none");
     updater_.add("target", this, &TargetPredictorNode::diagnose);
@@ -36,6 +35,8 @@ class TargetPredictorNode {
         node.subscribe<tf2_msgs::TFMessage>(
             "/tf", 1000, [this](const Tf& tf) { on_tf(*tf, false); }, nullptr, hints),
         node.subscribe("tag_detections", 100, &TargetPredictorNode::on_detections, this, hints)};
+    // After subscribing: who sees this publisher may start, nothing will be missed.
+    publisher_ = node.advertise<prf_msgs::TargetForecast>("target/forecast", 100);
   }
 
  private:
