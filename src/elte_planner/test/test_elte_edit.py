@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python module and the command elte_edit."""
+"""The Python module, its example and the commands elte_edit and paper_figures."""
+import ast
 import json
 import os
 import subprocess
@@ -79,6 +80,35 @@ class Module(unittest.TestCase):
         closed = elte_planner.EndpointSolver(zeta).solve(zeta, 10, goal, 0.05)
         general = elte_planner.solve(zeta, [elte_planner.ball(39, goal, 0.05)], zeta[:10]).y
         np.testing.assert_allclose(closed, general, atol=1e-13)
+
+
+class Hints(unittest.TestCase):
+    def test_name_everything_in_the_module_with_its_arguments(self):
+        with open(os.path.join(HERE, "..", "python", "elte_planner.pyi"), encoding="utf-8") as file:
+            tree = ast.parse(file.read())
+        hinted = {node.name: node for node in tree.body
+                  if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        self.assertEqual(set(hinted), {n for n in dir(elte_planner) if not n.startswith("_")})
+        for name, node in hinted.items():
+            value = getattr(elte_planner, name)
+            if isinstance(node, ast.ClassDef):
+                members = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
+                self.assertEqual(members - {"__init__"},
+                                 {n for n in dir(value) if not n.startswith("_")}, name)
+            else:
+                hint = [a.arg for a in node.args.args + node.args.kwonlyargs]
+                signature = value.__doc__.splitlines()[0]
+                for argument in hint:
+                    self.assertIn(argument + ":", signature)
+                self.assertEqual(len(hint), signature.count(": "), signature)
+
+
+class Example(unittest.TestCase):
+    def test_notebook_runs(self):
+        run = subprocess.run(
+            ["/usr/bin/python3", os.path.join(HERE, "..", "examples", "notebook.py")], text=True,
+            timeout=60, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout)
 
 
 class Figures(unittest.TestCase):
