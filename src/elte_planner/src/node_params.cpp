@@ -21,12 +21,17 @@ NodeParams load_node_params(const ros::NodeHandle& private_handle) {
   params.session.confidence = values.number("confidence");
   params.session.radius_min = values.number("radius_min");
   params.session.radius_max = values.number("radius_max");
+  params.late_after = values.number("late_after");
   values.refuse_unknown();
   params.session.validate();
   if (params.demonstration.empty()) {
     throw std::invalid_argument("demonstration is '', must name a CSV file");
   }
   if (params.frame.empty()) throw std::invalid_argument("frame is '', must name a frame");
+  if (!(params.late_after >= 1e-6 && params.late_after <= 10.0)) {
+    throw std::invalid_argument("late_after is " + std::to_string(params.late_after) +
+                                ", must be within [1e-6, 10] s");
+  }
   return params;
 }
 

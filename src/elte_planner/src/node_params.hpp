@@ -12,6 +12,7 @@ namespace elte_planner {
 struct NodeParams {
   std::string demonstration;  // CSV file
   std::string frame;          // planning frame that demonstration and messages must be in
+  double late_after = 0.0;    // s, a solve that takes longer is late; within [1e-6, 10]
   SessionParams session;
 };
 

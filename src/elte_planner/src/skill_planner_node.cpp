@@ -18,7 +18,9 @@ constexpr double kShapeLossWarning = 0.5;
 class SkillPlannerNode {
  public:
   explicit SkillPlannerNode(const NodeParams& params)
-      : frame_(params.frame), session_(params.session, demonstration(params)) {
+      : frame_(params.frame),
+        late_after_(params.late_after),
+        session_(params.session, demonstration(params)) {
     warn_of_lost_shape(params.session.weights);
     const auto hints = ros::TransportHints().tcpNoDelay();
     forecast_ =
@@ -80,7 +82,7 @@ class SkillPlannerNode {
       const auto start = std::chrono::steady_clock::now();
       const SkillAnswer answer =
           session_.answer(request->progress, request->forecast ? &*request->forecast : nullptr);
-      solve_time_ = std::chrono::steady_clock::now() - start;
+      note_solve_time(std::chrono::steady_clock::now() - start);
       trajectory_.publish(trajectory_from(request->progress, answer, session_));
       ++answers_;
       status_ = answer.status;
@@ -93,23 +95,36 @@ class SkillPlannerNode {
     updater_.update();
   }
 
+  // Says only that it was late: which plan goes out must not depend on the machine.
+  void note_solve_time(std::chrono::duration<double> time) {
+    solve_time_ = time;
+    was_late_ = time.count() > late_after_;
+    if (!was_late_) return;
+    ++late_;
+    ROS_WARN_THROTTLE(5.0, "solve took %.6f s, late_after is %.6f s", time.count(), late_after_);
+  }
+
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const bool good = status_ == AnswerStatus::kSolved || answers_ == 0;
+    const bool good = (status_ == AnswerStatus::kSolved && !was_late_) || answers_ == 0;
     status.summary(
         good ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
-        message_.empty() ? "planning" : message_);
+        message_.empty() ? (was_late_ ? "solve was late" : "planning") : message_);
     status.add("answers", answers_);
     status.add("kept plans", kept_);
+    status.add("late solves", late_);
     status.add("dropped, wrong frame", wrong_frame_);
     status.add("requests waiting for their forecast", queue_.waiting());
     status.add("last solve time, us", 1e6 * solve_time_.count());
   }
 
   std::string frame_;
+  double late_after_;  // s
   SkillSession session_;
   RequestQueue queue_;
   std::size_t answers_ = 0;
   std::size_t kept_ = 0;
+  std::size_t late_ = 0;
+  bool was_late_ = false;
   std::size_t wrong_frame_ = 0;
   AnswerStatus status_ = AnswerStatus::kNoPlan;
   std::string message_;

@@ -9,6 +9,7 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from diagnostic_msgs.msg import DiagnosticArray
 from prf_msgs.msg import ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
 
 FRAME = "j2s7s300_link_base"
@@ -107,6 +108,30 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
 
 
+    def test_7_tells_late_solves_and_sends_their_plans(self):
+        answers, reports = [], {}
+
+        def remember(message):
+            for status in message.status:
+                values = {value.key: value.value for value in status.values}
+                reports[status.name.split(":")[0].strip("/")] = int(values["late solves"])
+
+        rospy.Subscriber("hurried/skill/trajectory", SkillTrajectory, answers.append)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, remember)
+        forecasts = rospy.Publisher("hurried/target/forecast", TargetForecast, queue_size=9)
+        requests = rospy.Publisher("hurried/execution/progress", ExecutionProgress, queue_size=9)
+        for i in range(1, 60):
+            stamp = 0.1 * i
+            for publisher, messages in ((forecasts, forecast(stamp)),
+                                        (requests, progress(stamp + 0.06, stamp))):
+                publisher.publish(messages)
+                rospy.rostime.wallsleep(0.05)
+            if reports.get("hurried/skill_planner", 0) > 0 and answers:
+                break
+        self.assertGreater(reports.get("hurried/skill_planner", 0), 0, reports)
+        self.assertEqual(answers[-1].status, SkillTrajectory.SOLVED)
+
+
 class SkillPlannerParameters(unittest.TestCase):
     def refusal(self, **changes):
         """Exit code and output of a node started with changed parameters; None removes a key."""
@@ -142,6 +167,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("confidence is 1", confidence=1.0)
         self.check("radius_min is -", radius_min=-0.01)
         self.check("radius_max is 5", radius_max=5.0)
+        self.check("late_after is 0", late_after=0.0)
         self.check("frame is 'world'", frame="world")
         self.check("/nonexistent.csv: cannot be read", demonstration="/nonexistent.csv")
 
