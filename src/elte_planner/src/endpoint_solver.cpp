@@ -33,8 +33,8 @@ void EndpointSolver::build_gains(const Eigen::MatrixXd& zeta, const ElteWeights&
   best_error_gain_.setZero(n);
   best_error_feed_.setZero(n, d);
 
-  const auto half_second_difference = [&zeta](Eigen::Index k) -> Eigen::RowVectorXd {
-    return 0.5 * ((zeta.row(k + 1) - zeta.row(k)) - (zeta.row(k) - zeta.row(k - 1)));
+  const auto half_second_difference = [&zeta](Eigen::Index k, Eigen::Index j) {
+    return 0.5 * ((zeta(k + 1, j) - zeta(k, j)) - (zeta(k, j) - zeta(k - 1, j)));
   };
 
   // The last step has no choice: it goes to the end point.
@@ -42,31 +42,37 @@ void EndpointSolver::build_gains(const Eigen::MatrixXd& zeta, const ElteWeights&
   double B = q;
   double C = q + w + (end_row ? 1.0 : 0.0);
   double det = q * (C - q);
-  Eigen::RowVectorXd a = half_second_difference(n - 2);
-  Eigen::RowVectorXd c = -a;
-  if (end_row) c -= 2.0 * (zeta.row(n - 1) - zeta.row(n - 2));
+  Eigen::VectorXd a(d);
+  Eigen::VectorXd c(d);
+  for (Eigen::Index j = 0; j < d; ++j) {
+    a[j] = half_second_difference(n - 2, j);
+    c[j] = -a[j];
+    if (end_row) c[j] -= 2.0 * (zeta(n - 1, j) - zeta(n - 2, j));
+  }
   error_gain_[n - 2] = 1.0;
 
   for (Eigen::Index k = n - 2;; --k) {
     best_error_gain_[k] = B / C;
-    best_error_feed_.row(k) = -c / (2.0 * C);
+    best_error_feed_.row(k) = (-0.5 / C) * c.transpose();
     if (k == 1) break;
     const double S = w + A + 2.0 * B + C;
     const double W = q + S;
     const double Kv = q / W;
     const double Ke = (C + B) / W;
-    const Eigen::RowVectorXd h = half_second_difference(k - 1);
-    const Eigen::RowVectorXd g = h - a + c;
     step_gain_[k - 1] = Kv;
     error_gain_[k - 1] = Ke;
-    feed_.row(k - 1) = g / (2.0 * W);
+    for (Eigen::Index j = 0; j < d; ++j) {
+      const double h = half_second_difference(k - 1, j);
+      const double g = h - a[j] + c[j];
+      feed_(k - 1, j) = 0.5 * g / W;
+      a[j] = h - Kv * g;
+      c[j] -= Ke * g;
+    }
     const double next_det = q * (C * w + det) / W;
     A = q * S / W;
     B = q * Ke;
     C = (C * (q + w) + det) / W;
     det = next_det;
-    a = h - Kv * g;
-    c -= Ke * g;
   }
 }
 
