@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "platform_sim");
   using platform_sim::Simulation;
-  ros::NodeHandle node;  // outlives the run: with the last handle the console closes
+  ros::NodeHandle node;
   Simulation::Outcome outcome = Simulation::Outcome::kEnded;
   const int refused = prf_parameters::run([&] {
     ros::NodeHandle private_node("~");
