@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A catalogue of bad parameters: the node must end with code 2 and name the parameter."""
 import subprocess

@@ -76,7 +76,7 @@ class Refusals(unittest.TestCase):
 class Interruptions(unittest.TestCase):
     def interrupted(self, number):
         with tempfile.TemporaryDirectory() as results:
-            process = runs.start("run_trial", f"results:={results}")
+            process = runs.start("run_trial", f"results:={results}", "real_time_factor:=1.0")
             try:
                 bag = os.path.join(results, "*", "trial.bag.active")
                 end = time.monotonic() + 60.0
@@ -101,7 +101,7 @@ class Interruptions(unittest.TestCase):
 
     def test_kill_leaves_no_process(self):
         with tempfile.TemporaryDirectory() as results:
-            process = runs.start("run_trial", f"results:={results}")
+            process = runs.start("run_trial", f"results:={results}", "real_time_factor:=1.0")
             while not glob.glob(os.path.join(results, "*", "trial.bag.active")):
                 self.assertIsNone(process.poll(), "ended by itself")
                 time.sleep(0.1)
