@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records how the robot moves on the platform while its arm is held still.
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "options.hpp"
+#include "platform_sim/headless.hpp"
+#include "robot_files.hpp"
+
+namespace {
+
+using platform_sim::World;
+
+constexpr char kUsage[] =
+    "usage: record_motion --out FILE.csv [--motion light] [--gait stand] [--seed 1]\n"
+    "                     [--duration 40] [--rate 100]\n"
+    "  simulates the robot with its arm held at the ready pose, without ROS, and writes poses\n";
+constexpr char kArmBase[] = "j2s7s300_link_base";
+constexpr char kHand[] = "j2s7s300_end_effector";
+constexpr char kCamera[] = "camera_optical_frame";
+
+struct Recording {
+  platform_sim::WorldConfig config;
+  double duration = 0.0;
+  int rate = 0;
+  std::string out;
+};
+
+Recording read_options(int argc, char** argv) {
+  platform_sim::Options options(argc, argv);
+  Recording recording;
+  recording.config.motion = options.text("motion", "light");
+  recording.config.gait = options.text("gait", "stand");
+  const long seed = options.integer("seed", 1);
+  if (seed < 0) throw std::invalid_argument("--seed is negative");
+  recording.config.seed = static_cast<std::uint64_t>(seed);
+  recording.duration = options.number("duration", 40.0);
+  recording.rate = static_cast<int>(options.integer("rate", 100));
+  recording.out = options.text("out");
+  options.refuse_unknown();
+  recording.config.arm_start = platform_sim::configured_arm_start();
+  return recording;
+}
+
+std::string header_of(const Recording& recording, const World& world) {
+  std::ostringstream header;
+  header << "# recorded by: rosrun platform_sim record_motion\n"
+         << "# motion: " << recording.config.motion << "\n"
+         << "# gait: " << recording.config.gait << "\n"
+         << "# seed: " << recording.config.seed << "\n"
+         << "# rate_hz: " << recording.rate << "\n"
+         << "# fallen: " << (world.fallen() ? "true" : "false") << "\n"
+         << "# tag: pose in " << kArmBase << "\n"
+         << "# base: pose of base_link in platform\n"
+         << "# hand: pose of " << kHand << " in " << kArmBase << "\n"
+         << "# camera: pose of " << kCamera << " in " << kArmBase << "\n"
+         << "# platform: pose in world\n"
+         << "# units: s, m, unit quaternion with w >= 0\n"
+         << "time";
+  for (const char* pose : {"tag", "base", "hand", "camera", "platform"}) {
+    for (const char* part : {"x", "y", "z", "qx", "qy", "qz", "qw"}) {
+      header << "," << pose << "_" << part;
+    }
+  }
+  header << "\n";
+  return header.str();
+}
+
+void append_pose(const Eigen::Isometry3d& pose, std::string& row) {
+  const Eigen::Vector3d p = pose.translation();
+  Eigen::Quaterniond q(pose.linear());
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  char text[200];
+  std::snprintf(text, sizeof(text), ",%.9f,%.9f,%.9f,%.9f,%.9f,%.9f,%.9f", p.x(), p.y(), p.z(),
+                q.x(), q.y(), q.z(), q.w());
+  row += text;
+}
+
+std::string row_of(const World& world) {
+  char time[32];
+  std::snprintf(time, sizeof(time), "%.3f", world.time());
+  std::string row = time;
+  const Eigen::Isometry3d platform = world.platform().pose;
+  const Eigen::Isometry3d to_arm_base = world.frame(kArmBase).pose.inverse();
+  append_pose(to_arm_base * world.tag().pose, row);
+  append_pose(platform.inverse() * world.base().pose, row);
+  append_pose(to_arm_base * world.frame(kHand).pose, row);
+  append_pose(to_arm_base * world.frame(kCamera).pose, row);
+  append_pose(platform, row);
+  return row + "\n";
+}
+
+// Returns whether the robot is still on its feet.
+bool record(const Recording& recording) {
+  std::ofstream file(recording.out);
+  if (!file) throw std::invalid_argument("--out = " + recording.out + " cannot be written");
+  World world(platform_sim::installed_robot_description(), recording.config);
+  std::string rows;
+  platform_sim::run_headless(world, recording.duration, recording.rate,
+                             [&](const World& now) { rows += row_of(now); });
+  file << header_of(recording, world) << rows;
+  file.close();
+  if (!file) throw std::runtime_error(recording.out + " cannot be written");
+  if (world.fallen()) {
+    std::cerr << "record_motion: the robot fell at " << world.time() << " s\n";
+  }
+  return !world.fallen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    constexpr int kFallen = 1;
+    return record(read_options(argc, argv)) ? 0 : kFallen;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "record_motion: " << error.what() << "\n" << kUsage;
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "record_motion: " << error.what() << "\n";
+    return 2;
+  }
+}
