@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands that work on bags: judge, report, bag_digest."""
+"""Commands that work on bags: judge, inspect, report, bag_digest."""
 import argparse
 import json
 
-from prf_experiments import demonstration, digest, judge, recording, session
+from prf_experiments import demonstration, digest, judge, recording, session, timeline
 
 
 def _judged(bag):
@@ -34,6 +34,28 @@ def judge_main(words):
             print(f"  {name}: {value:.4g}" if isinstance(value, float) else f"  {name}: {value}")
         return 3 if verdict.verdict == "INVALID" else 0
     return session.guarded("judge", action)
+
+
+def inspect_main(words):
+    parser = argparse.ArgumentParser(
+        prog="inspect", description="Prints a trial as a timeline: phases and reasons, sights, "
+        "contacts, what the arm could not do, solve times, drops.")
+    parser.add_argument("bag")
+    parser.add_argument("--json", metavar="FILE", help="writes the events there too")
+    options = parser.parse_args(words)
+
+    def action():
+        data = recording.read(options.bag)
+        verdict = judge.judge(data)
+        if options.json:
+            names = ("time_s", "off_axis_mm", "to_stand_off_mm", "event")
+            lines = timeline.event_lines(data, verdict.figures)
+            with open(options.json, "w", encoding="utf-8") as stream:
+                json.dump([dict(zip(names, line)) for line in lines], stream, indent=2)
+                stream.write("\n")
+        print(timeline.text(data, verdict), end="")
+        return 0
+    return session.guarded("inspect", action)
 
 
 def report_main(words):

@@ -41,6 +41,8 @@ TICK = SECOND // 100  # joint_states and everything published with them
 MAX_UNANSWERED_IMAGES = 3  # in flight when the trial ends
 
 STATES = ["WAITING", "FORWARD", "PAUSE", "REVERSE", "TRACKING", "RETRACT", "DONE", "STOPPED"]
+EXECUTION = ("FORWARD", "PAUSE", "REVERSE")  # the phases in which the skill is executed
+TRACKING = ("TRACKING",)
 DONE, STOPPED = STATES.index("DONE"), STATES.index("STOPPED")
 
 
@@ -146,8 +148,8 @@ def defect(recording):
     return ""
 
 
-def _common(recording):
-    """Stamps that camera and tag share, with the tag's distances there."""
+def distances(recording):
+    """Stamps that camera and tag share, with the tag's distance off the axis and along it, m."""
     stamps, at_camera, at_tag = np.intersect1d(recording.camera.stamps, recording.tag.stamps,
                                                return_indices=True)
     lateral, along = tag_in_camera(recording.camera.values[at_camera],
@@ -170,10 +172,11 @@ def _fall(recording):
     return int(min(fallen)) if fallen else None, float(np.min(height)), float(np.max(tilt))
 
 
-def _tracking_statistics(recording, stamps, lateral):
-    """Mean and standard deviation of the lateral distance while tracking, mm, or None."""
-    tracking = recording.progress.stamps[recording.progress.states == STATES.index("TRACKING")]
-    chosen = lateral[np.isin(stamps, tracking)]
+def _lateral_statistics(recording, phases, stamps, lateral):
+    """Mean and standard deviation of the lateral distance in some phases, mm, or two None."""
+    states = [STATES.index(name) for name in phases]
+    chosen = lateral[np.isin(stamps, recording.progress.stamps[
+        np.isin(recording.progress.states, states)])]
     if not chosen.size:
         return None, None
     return 1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))
@@ -185,7 +188,7 @@ def judge(recording):
     if broken:
         return invalid(broken)
 
-    stamps, lateral, along = _common(recording)
+    stamps, lateral, along = distances(recording)
     deadline = recording.start + TIME_LIMIT
     reached = _reached(stamps, lateral, along, REACHED_BOUND, REACHED_HOLD, deadline)
     inspected = _reached(stamps, lateral, along, INSPECTED_BOUND, INSPECTED_HOLD, deadline)
@@ -216,7 +219,8 @@ def judge(recording):
     reach = "" if reached is None else f"reached at {recording.seconds(reached):.2f} s"
     verdict = "F" if failures else "P" if issues else "S"
     reasons = failures + issues if failures else [reach] + (issues or ["no issue"])
-    tracking_mean, tracking_deviation = _tracking_statistics(recording, stamps, lateral)
+    execution_mean, execution_deviation = _lateral_statistics(recording, EXECUTION, stamps, lateral)
+    tracking_mean, tracking_deviation = _lateral_statistics(recording, TRACKING, stamps, lateral)
     figures = {
         "duration_s": float(recording.seconds(recording.ticks[-1])),
         "reached_s": None if reached is None else float(recording.seconds(reached)),
@@ -231,8 +235,11 @@ def judge(recording):
         "smallest_along_error_mm": 1e3 * float(np.min(np.abs(along - STAND_OFF))),
         "final_lateral_mm": 1e3 * float(lateral[-1]),
         "final_along_error_mm": 1e3 * float(along[-1] - STAND_OFF),
+        "execution_lateral_mean_mm": execution_mean,
+        "execution_lateral_deviation_mm": execution_deviation,
         "tracking_lateral_mean_mm": tracking_mean,
         "tracking_lateral_deviation_mm": tracking_deviation,
+        "fallen_s": None if fall is None else float(recording.seconds(fall)),
         "lowest_body_height_mm": 1e3 * height,
         "largest_body_tilt_deg": float(np.degrees(tilt)),
         "final_state": STATES[recording.progress.states[-1]],

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import rosbag
+import rosgraph_msgs.msg
 
 from prf_experiments import geometry
 
@@ -55,7 +56,7 @@ class Progress:
 @dataclass
 class Forecasts:
     stamps: np.ndarray  # (n,) ns
-    statuses: np.ndarray  # (n,)
+    statuses: np.ndarray  # (n,) TargetForecast constants
     horizons: list  # n arrays (h,) s
     positions: list  # n arrays (h, 3) m, planning frame
 
@@ -64,8 +65,23 @@ class Forecasts:
 class Plan:
     stamp: int
     status: int
+    message: str
     kkt_residual: float
     positions: np.ndarray  # (nodes, 3)
+
+
+@dataclass
+class Control:
+    stamps: np.ndarray  # (n,) ns
+    codes: np.ndarray  # (n,) ControlStatus constants
+    reasons: list
+
+
+@dataclass
+class Complaint:
+    stamp: int  # ns
+    node: str
+    text: str
 
 
 @dataclass
@@ -84,7 +100,10 @@ class Recording:
     progress: Progress
     forecasts: Forecasts
     plans: list
+    control: Control
     arm_base_in_body: np.ndarray  # (7,), from tf_static
+    complaints: list = field(default_factory=list)  # warnings and worse of rosout
+    diagnostics: dict = field(default_factory=dict)  # {node: {key: [text of each report]}}
     description: dict = field(default_factory=dict)
 
     @property
@@ -139,7 +158,9 @@ class _Reader:
         self._stamps, self._rows = {}, {}
         self._fixed = {}  # child: (parent, pose of child in parent)
         self.contacts, self.plans, self.horizons, self.positions = [], [], [], []
-        self.description = {}
+        self.complaints, self.diagnostics, self.description = [], {}, {}
+        self._kept = {DESCRIPTION: self._keep_description, "tf_static": self._keep_transforms,
+                      "rosout": self._keep_complaint, "diagnostics": self._keep_diagnostics}
         self._rows_of = {
             "joint_states": lambda message: None,
             "ground_truth/platform": lambda message: pose_values(message.pose.pose),
@@ -153,23 +174,39 @@ class _Reader:
             "skill/trajectory": self._keep_plan,
             "execution/progress": lambda message: (message.state, message.cursor, message.reason,
                                                    *message.posterior),
+            "control/status": lambda message: (message.code, message.reason),
         }
 
     @property
     def topics(self):
-        return ["/" + name for name in [*self._rows_of, DESCRIPTION, "tf_static"]]
+        return ["/" + name for name in [*self._rows_of, *self._kept]]
 
     def take(self, topic, message):
         name = topic[1:]
-        if name == DESCRIPTION:
-            self.description = json.loads(message.data)
-        elif name == "tf_static":
-            for item in message.transforms:
-                self._fixed[item.child_frame_id] = (item.header.frame_id,
-                                                    transform_values(item.transform))
+        if name in self._kept:
+            self._kept[name](message)
         else:
             self._stamps.setdefault(name, []).append(message.header.stamp.to_nsec())
             self._rows.setdefault(name, []).append(self._rows_of[name](message))
+
+    def _keep_description(self, message):
+        self.description = json.loads(message.data)
+
+    def _keep_transforms(self, message):
+        for item in message.transforms:
+            self._fixed[item.child_frame_id] = (item.header.frame_id,
+                                                transform_values(item.transform))
+
+    def _keep_complaint(self, message):
+        if message.level >= rosgraph_msgs.msg.Log.WARN:
+            self.complaints.append(Complaint(message.header.stamp.to_nsec(),
+                                             message.name.lstrip("/"), message.msg.strip()))
+
+    def _keep_diagnostics(self, message):
+        for status in message.status:
+            values = self.diagnostics.setdefault(status.name.partition(":")[0], {})
+            for item in status.values:
+                values.setdefault(item.key, []).append(item.value)
 
     def _keep_contacts(self, message):
         stamp = message.header.stamp.to_nsec()
@@ -185,7 +222,7 @@ class _Reader:
     def _keep_plan(self, message):
         positions = np.array([pose_values(pose)[:3] for pose in message.poses]).reshape(-1, 3)
         self.plans.append(Plan(message.header.stamp.to_nsec(), message.status,
-                               message.kkt_residual, positions))
+                               message.message, message.kkt_residual, positions))
 
     def stamps(self, topic):
         return np.array(self._stamps[topic], dtype=np.int64)
@@ -198,6 +235,10 @@ class _Reader:
         return Progress(self.stamps("execution/progress"), np.array(states, dtype=int),
                         np.array(posteriors, dtype=float).T, np.array(cursors, dtype=float),
                         list(reasons))
+
+    def control(self):
+        codes, reasons = zip(*self._rows["control/status"])
+        return Control(self.stamps("control/status"), np.array(codes, dtype=int), list(reasons))
 
     def forecasts(self):
         return Forecasts(self.stamps("target/forecast"),
@@ -249,5 +290,7 @@ def read(path, tag_id=0):
         progress=reader.progress(),
         forecasts=reader.forecasts(),
         plans=reader.plans,
+        control=reader.control(),
         arm_base_in_body=arm_base_in_body,
+        complaints=reader.complaints, diagnostics=reader.diagnostics,
         description=reader.description)

@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from prf_experiments import figures, frames, geometry, judge, recording
+from prf_experiments import figures, frames, geometry, judge, recording, timeline
 
 SHOWN_HORIZON = 0.5  # s, of the forecasts in the figure
 STYLE = """
@@ -31,14 +31,6 @@ def _table(rows, header=None):
     head = "<tr>" + "".join(f"<th>{name}</th>" for name in header) + "</tr>" if header else ""
     return ("<table>" + head + "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
             + "</table>")
-
-
-def phase_changes(data):
-    """(time s, phase, reason) of every change of the phase."""
-    states = data.progress.states
-    changes = np.concatenate([[0], np.flatnonzero(np.diff(states)) + 1])
-    return [(round(float(data.seconds(data.progress.stamps[row])), 2), judge.STATES[states[row]],
-             data.progress.reasons[row]) for row in changes]
 
 
 def _matched(first, second):
@@ -114,7 +106,9 @@ def page(content, data, drawings):
     for title, text, drawing in drawings:
         parts += [f"<h2>{title}</h2><p>{text}</p>", drawing]
     if data is not None:
-        parts += ["<h2>Phases</h2>", _table(phase_changes(data), ("time, s", "phase", "reason"))]
+        told = timeline.text(data, judge.Verdict(verdict, content["inspected"], content["reason"],
+                                                 content["figures"]))
+        parts += ["<h2>Timeline</h2>", f"<pre class=\"timeline\">{html.escape(told)}</pre>"]
     parts += ["<h2>Figures of merit</h2>", _table(measures)]
     if pairs:
         parts += ["<h2>Contacts of the arm</h2>",

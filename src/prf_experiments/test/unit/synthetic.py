@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Made-up trials: as arrays for the judge, and as bags for what reads bags."""
+import diagnostic_msgs.msg
 import geometry_msgs.msg
 import nav_msgs.msg
 import numpy as np
@@ -55,7 +56,8 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
         forecasts=recording.Forecasts(images, np.ones(len(images), dtype=int),
                                       [np.array([0.0, 0.5])] * len(images),
                                       [np.array([[0.8, 0.0, 0.65]] * 2)] * len(images)),
-        plans=[], arm_base_in_body=ARM_BASE_IN_BODY)
+        plans=[], control=recording.Control(ticks, np.zeros(count, dtype=int), [""] * count),
+        arm_base_in_body=ARM_BASE_IN_BODY)
 
 
 def _stamped(kind, stamp, frame=""):
@@ -102,10 +104,26 @@ def write_bag(path, data, skipped=(), hand=None, seed=0):
             START, "/robot_state_publisher")
         writer.add("trial/description", std_msgs.msg.String('{"command": "made up"}'), START,
                    "/observer")
+        for complaint in data.complaints:
+            writer.add("rosout", rosgraph_msgs.msg.Log(
+                level=rosgraph_msgs.msg.Log.WARN, name="/" + complaint.node, msg=complaint.text,
+                header=std_msgs.msg.Header(stamp=rospy.Time(0, int(complaint.stamp)))),
+                complaint.stamp, "/" + complaint.node)
+        _add_diagnostics(writer, data)
         for row, stamp in enumerate(data.ticks):
             _add_tick(writer, data, row, stamp, hand)
         for row, stamp in enumerate(data.sight_stamps):
             _add_image(writer, data, row, stamp, noise)
+
+
+def _add_diagnostics(writer, data):
+    for node, values in data.diagnostics.items():
+        for row in range(len(next(iter(values.values())))):
+            told = [diagnostic_msgs.msg.KeyValue(key, texts[row]) for key, texts in values.items()]
+            message = _stamped(diagnostic_msgs.msg.DiagnosticArray, START)
+            message.status = [diagnostic_msgs.msg.DiagnosticStatus(name=node + ": part",
+                                                                   values=told)]
+            writer.add("diagnostics", message, START, "/" + node)
 
 
 def _add_tick(writer, data, row, stamp, hand):
@@ -132,8 +150,9 @@ def _add_tick(writer, data, row, stamp, hand):
                _stamped(trajectory_msgs.msg.MultiDOFJointTrajectory, stamp), stamp, "/decision")
     writer.add("joint_command", _stamped(trajectory_msgs.msg.JointTrajectory, stamp), stamp,
                "/arm_controller")
-    writer.add("control/status", _stamped(prf_msgs.msg.ControlStatus, stamp), stamp,
-               "/arm_controller")
+    status = _stamped(prf_msgs.msg.ControlStatus, stamp)
+    status.code, status.reason = int(data.control.codes[row]), data.control.reasons[row]
+    writer.add("control/status", status, stamp, "/arm_controller")
     pose = [0.616, 0.0, 0.585, 0.5, 0.5, 0.5, 0.5] if hand is None else hand[row]
     writer.add("tf", tf2_msgs.msg.TFMessage([
         _transform(stamp, "j2s7s300_link_base", "j2s7s300_end_effector", pose)]), stamp,
