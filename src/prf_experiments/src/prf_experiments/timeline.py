@@ -177,7 +177,8 @@ def losses(data):
 
 def text(data, verdict):
     """The whole timeline, for a terminal of 100 columns or more."""
-    lines = [f"{verdict.verdict}{' (inspected)' if verdict.inspected else ''}: {verdict.reason}", "",
+    inspected = " (inspected)" if verdict.inspected else ""
+    lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", "",
              "  time, s  off axis, mm  to stand-off, mm  event"]
     lines += [f"{time:9.2f}  {off:12.0f}  {to:+16.0f}  {what}"
               for time, off, to, what in event_lines(data, verdict.figures)]
