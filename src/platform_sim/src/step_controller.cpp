@@ -17,8 +17,8 @@ constexpr double kLift = 0.08;  // m
 
 constexpr double kLeaning = 0.5;          // part of the deck's slope that the body follows
 constexpr double kSlopeLearning = 12.0;   // 1/s
-constexpr double kTilt = 500.0;           // Nm/rad
-constexpr double kTiltRate = 34.0;        // Nm s/rad
+constexpr double kTilt = 2000.0;          // Nm/rad
+constexpr double kTiltRate = 200.0;       // Nm s/rad
 constexpr double kWay = 4.0;              // 1/s2
 constexpr double kWayRate = 6.0;          // 1/s
 constexpr double kHeight = 100.0;         // 1/s2
