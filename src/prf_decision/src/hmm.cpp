@@ -72,7 +72,7 @@ void HmmParameters::validate() const {
   for (std::size_t i = 0; i < kIntents; ++i) {
     if (!mean[i].allFinite()) refuse("mean.", kIntentNames[i], " is not finite");
     validate_covariance(covariance[i], std::string("covariance.") + kIntentNames[i]);
-    const double speed = std::sqrt(mean[i].squaredNorm() + covariance[i].trace());
+    const double speed = std::sqrt(mean_square_speed(*this, i));
     if (!(speed > slower)) {
       refuse("covariance.", kIntentNames[i], " gives an rms speed of ", speed,
              " m/s, must be above ", slower, " m/s of ", kIntentNames[i == 0 ? 0 : i - 1]);
@@ -81,27 +81,34 @@ void HmmParameters::validate() const {
   }
 }
 
-HmmFilter::HmmFilter(const HmmParameters& parameters) : parameters_(parameters) {
-  parameters_.validate();
+double mean_square_speed(const HmmParameters& parameters, std::size_t state) {
+  return parameters.mean[state].squaredNorm() + parameters.covariance[state].trace();
+}
+
+EmissionModel::EmissionModel(const HmmParameters& parameters) : mean_(parameters.mean) {
   for (std::size_t i = 0; i < kIntents; ++i) {
-    const Eigen::Matrix3d lower = parameters_.covariance[i].llt().matrixL();
+    validate_covariance(parameters.covariance[i], std::string("covariance.") + kIntentNames[i]);
+    const Eigen::Matrix3d lower = parameters.covariance[i].llt().matrixL();
     whitening_[i] = lower.inverse();
     log_norm_[static_cast<Eigen::Index>(i)] =
         -1.5 * std::log(2 * M_PI) - lower.diagonal().array().log().sum();
   }
 }
 
-HmmBelief HmmFilter::initial_belief() const { return {parameters_.initial, false, 0}; }
-
-Eigen::Vector3d HmmFilter::log_emission(const Eigen::Vector3d& velocity) const {
+Eigen::Vector3d EmissionModel::log_density(const Eigen::Vector3d& velocity) const {
   if (!velocity.allFinite()) refuse("velocity is not finite");
   Eigen::Vector3d result = log_norm_;
   for (std::size_t i = 0; i < kIntents; ++i) {
     result[static_cast<Eigen::Index>(i)] -=
-        0.5 * (whitening_[i] * (velocity - parameters_.mean[i])).squaredNorm();
+        0.5 * (whitening_[i] * (velocity - mean_[i])).squaredNorm();
   }
   return result;
 }
+
+HmmFilter::HmmFilter(const HmmParameters& parameters)
+    : parameters_((parameters.validate(), parameters)), emission_(parameters) {}
+
+HmmBelief HmmFilter::initial_belief() const { return {parameters_.initial, false, 0}; }
 
 HmmBelief HmmFilter::predict(const HmmBelief& belief) const {
   if (!belief.started) return {belief.posterior, true, belief.log_likelihood};
@@ -113,7 +120,7 @@ HmmBelief HmmFilter::observe(const HmmBelief& belief, const Eigen::Vector3d& vel
   const HmmBelief predicted = predict(belief);
   // Scaled by the largest joint probability, so that a far outlier cannot underflow all states.
   const Eigen::Vector3d log_joint =
-      predicted.posterior.array().log().matrix() + log_emission(velocity);
+      predicted.posterior.array().log().matrix() + emission_.log_density(velocity);
   const double scale = log_joint.maxCoeff();
   const Eigen::Vector3d joint =
       log_joint.unaryExpr([scale](double value) { return std::exp(value - scale); });

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 
 namespace prf_decision {
@@ -80,6 +82,8 @@ HmmParameters parse(const YAML::Node& root) {
   return parameters;
 }
 
+const Eigen::IOFormat kList(17, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
+
 }  // namespace
 
 HmmParameters load_hmm(const std::string& path) {
@@ -92,6 +96,38 @@ HmmParameters load_hmm(const std::string& path) {
   } catch (const std::invalid_argument& error) {
     refuse("HMM file '" + path + "': " + error.what());
   }
+}
+
+std::string hmm_text(const HmmParameters& parameters, const std::string& comment) {
+  parameters.validate();
+  std::ostringstream text;
+  text << std::setprecision(17);
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) text << "# " << line << '\n';
+  text << "\n# Probability of each state at the first forecast.\ninitial:\n";
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    text << "  " << kIntentNames[i] << ": " << parameters.initial[static_cast<Eigen::Index>(i)]
+         << '\n';
+  }
+  text << "\n# Row: state now. Columns: forward, pause, reverse at the next forecast.\n"
+       << "transition:\n";
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const Eigen::RowVector3d row = parameters.transition.row(static_cast<Eigen::Index>(i));
+    text << "  " << kIntentNames[i] << ": " << row.format(kList) << '\n';
+  }
+  text << "\n# Mean velocity, m/s.\nmean:\n";
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    text << "  " << kIntentNames[i] << ": " << parameters.mean[i].transpose().format(kList) << '\n';
+  }
+  text << "\n# Covariance of the velocity, m^2/s^2, row by row.\ncovariance:\n";
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    text << "  " << kIntentNames[i] << ":\n";
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      const Eigen::RowVector3d values = parameters.covariance[i].row(row);
+      text << "    - " << values.format(kList) << '\n';
+    }
+  }
+  return text.str();
 }
 
 }  // namespace prf_decision

@@ -50,6 +50,19 @@ inline HmmParameters usual_hmm() {
   return hmm;
 }
 
+// A model without symmetries: correlated axes, means that differ, every transition possible.
+inline HmmParameters skewed_hmm() {
+  HmmParameters hmm;
+  hmm.initial << 0.5, 0.3, 0.2;
+  hmm.transition << 0.7, 0.2, 0.1, 0.25, 0.6, 0.15, 0.05, 0.35, 0.6;
+  hmm.mean = {Eigen::Vector3d{0.01, 0, -0.02}, Eigen::Vector3d{0.1, 0.05, 0},
+              Eigen::Vector3d{-0.2, 0.1, 0.3}};
+  hmm.covariance[0] << 0.02, 0.004, 0, 0.004, 0.01, 0.001, 0, 0.001, 0.015;
+  hmm.covariance[1] << 0.05, -0.01, 0.02, -0.01, 0.08, 0, 0.02, 0, 0.06;
+  hmm.covariance[2] << 0.2, 0.05, 0.03, 0.05, 0.3, -0.04, 0.03, -0.04, 0.25;
+  return hmm;
+}
+
 inline GuardParameters usual_guards() {
   GuardParameters guards;
   guards.pause_after = from_seconds(0.3);

@@ -51,6 +51,19 @@ TEST_F(HmmFile, OfTheConfigurationIsValid) {
   expect_same(load_hmm("config/hmm_default.yaml"), usual_hmm());
 }
 
+TEST_F(HmmFile, KeepsEveryDigitWhenWrittenAndRead) {
+  const HmmParameters hmm = skewed_hmm();
+  const HmmParameters read = load_hmm(write(hmm_text(hmm, "Two lines\nof comment")));
+  EXPECT_EQ(read.initial, hmm.initial);
+  EXPECT_EQ(read.transition, hmm.transition);
+  EXPECT_EQ(read.mean, hmm.mean);
+  EXPECT_EQ(read.covariance, hmm.covariance);
+
+  HmmParameters bad = hmm;
+  bad.initial.setZero();
+  EXPECT_THROW((void)hmm_text(bad, ""), std::invalid_argument);
+}
+
 TEST_F(HmmFile, ThatCannotBeReadIsNamed) {
   try {
     (void)load_hmm("no/such/file.yaml");

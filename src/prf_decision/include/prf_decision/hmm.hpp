@@ -25,10 +25,28 @@ struct HmmParameters {
   std::array<Eigen::Matrix3d, kIntents> covariance{};    // m^2/s^2, positive definite
 
   // std::invalid_argument names the entry, its value and the bound. Besides probabilities and
-  // covariances it refuses states in the wrong order (E|o|^2 = |mean|^2 + tr covariance must rise)
-  // and dead ones (every state must be reachable from every other).
+  // covariances it refuses states in the wrong order (mean_square_speed must rise) and dead
+  // ones (every state must be reachable from every other).
   void validate() const;
 };
+
+// ln b_i(o) of every state.
+class EmissionModel {
+ public:
+  // Refuses covariances that are not positive definite, by name.
+  explicit EmissionModel(const HmmParameters& parameters);
+
+  // The velocity must be finite.
+  [[nodiscard]] Eigen::Vector3d log_density(const Eigen::Vector3d& velocity) const;
+
+ private:
+  std::array<Eigen::Vector3d, kIntents> mean_;
+  std::array<Eigen::Matrix3d, kIntents> whitening_;  // W with W^T W = covariance^-1
+  Eigen::Vector3d log_norm_;                         // ln of the density at the mean
+};
+
+// E|o|^2 = |mean|^2 + tr covariance: the order of the states.
+[[nodiscard]] double mean_square_speed(const HmmParameters& parameters, std::size_t state);
 
 struct HmmBelief {
   Eigen::Vector3d posterior = Eigen::Vector3d::Zero();  // sums to 1
@@ -49,13 +67,9 @@ class HmmFilter {
   // One period without: the belief drifts toward the stationary distribution.
   [[nodiscard]] HmmBelief predict(const HmmBelief& belief) const;
 
-  // ln b_i(velocity) of each state.
-  [[nodiscard]] Eigen::Vector3d log_emission(const Eigen::Vector3d& velocity) const;
-
  private:
   HmmParameters parameters_;
-  std::array<Eigen::Matrix3d, kIntents> whitening_;  // W with W^T W = covariance^-1
-  Eigen::Vector3d log_norm_;                         // ln of the density at the mean
+  EmissionModel emission_;
 };
 
 // The most probable state; the more cautious one when equal.

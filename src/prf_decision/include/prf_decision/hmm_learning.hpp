@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Learns the HMM's parameters from runs (Baum-Welch: maximum likelihood by expectation
+// maximisation), with labels or without.
+//
+//   E   gamma_k = P(state k | run), xi = expected transitions            (hmm_sequence.hpp)
+//   M   initial_i = mean over runs of gamma_0i          A_ij = xi_ij / sum_j xi_ij
+//       mean_i = sum gamma_ki o_k / sum gamma_ki        (or 0)
+//       covariance_i = sum gamma_ki (o_k - mean_i)(o_k - mean_i)^T / sum gamma_ki
+// Where every observation is labelled gamma is 0 or 1, and the first iteration is the answer.
+//
+// Without labels the likelihood does not change when states change names: they are named by rising
+// mean square speed E|o|^2, Forward, Pause, Reverse. With labels the names are the labels'. In both
+// cases a model that HmmParameters::validate() refuses is no answer.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "prf_decision/hmm_sequence.hpp"
+
+namespace prf_decision {
+
+struct LearningOptions {
+  int restarts = 8;          // from other first guesses; the most likely result is taken
+  int max_iterations = 500;  // of each
+  double tolerance = 1e-8;   // rise of ln P per observation below which it has converged
+  std::uint32_t seed = 1;    // of the first guesses
+  // Zero means keep the states from becoming directions of a sway instead of its strength.
+  bool free_means = false;
+
+  void validate() const;
+};
+
+struct EmStep {
+  HmmParameters parameters;   // states in the order of those it was given
+  double log_likelihood = 0;  // of the parameters that it was given
+};
+
+// One iteration. std::runtime_error names a state that has died out (fewer than kLeastShare
+// observations, or a singular covariance).
+inline constexpr double kLeastShare = 4;
+[[nodiscard]] EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& runs,
+                             bool free_means);
+
+struct Learned {
+  HmmParameters parameters;
+  std::vector<double> log_likelihood;  // one per iteration
+  bool converged = false;
+  int restart = 0;                   // that led here
+  std::vector<std::string> refused;  // why each of the others that failed did
+};
+
+using OnIteration = std::function<void(int restart, int iteration, double log_likelihood)>;
+
+// std::invalid_argument when no restart leads to a valid model; the message says why.
+[[nodiscard]] Learned learn(const std::vector<Sequence>& runs, const LearningOptions& options,
+                            const OnIteration& on_iteration = {});
+
+}  // namespace prf_decision

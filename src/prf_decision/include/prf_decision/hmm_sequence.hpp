@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Offline inference of the HMM's states over a whole run, what comes later included.
+//
+// Forward-backward, scaled at every step (Rabiner 1989, section V.A), with s_k the scale:
+//   alpha_k = (A^T alpha_{k-1}) b(o_k) / s_k,     beta_k = A b(o_{k+1}) beta_{k+1} / s_{k+1},
+//   P(state k | all) = alpha_k beta_k,            ln P(all) = sum ln s_k.
+// An observation without a velocity says nothing (b = 1); one with a label excludes the others.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "prf_decision/hmm.hpp"
+
+namespace prf_decision {
+
+struct Observation {
+  std::optional<Eigen::Vector3d> velocity;  // m/s; none: the target was not seen
+  std::optional<Intent> label;              // none: not known
+};
+using Sequence = std::vector<Observation>;
+
+struct Smoothing {
+  Eigen::Matrix3Xd posterior;                             // one column per observation, sums to 1
+  Eigen::Matrix3d transitions = Eigen::Matrix3d::Zero();  // expected number from row to column
+  double log_likelihood = 0;
+};
+
+// The parameters' probabilities are taken as they are, in any order of the states.
+// std::invalid_argument for an empty sequence, or one that the model makes impossible.
+[[nodiscard]] Smoothing smooth(const HmmParameters& parameters, const Sequence& sequence);
+
+struct StatePath {
+  std::vector<Intent> states;
+  double log_probability = 0;  // of states and observations together
+};
+
+// The single most probable sequence of states (Viterbi). Refuses as smooth() does.
+[[nodiscard]] StatePath most_probable_path(const HmmParameters& parameters,
+                                           const Sequence& sequence);
+
+// A run drawn from the model, every observation labelled. The same seed gives the same run.
+[[nodiscard]] Sequence draw(const HmmParameters& parameters, std::size_t observations,
+                            std::uint32_t seed);
+
+}  // namespace prf_decision

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The HMM for Python: the same code that the node runs. A run is an (n, 3) array of velocities, a
+// row of NaN where the target was not seen, and n labels 0, 1, 2 or -1 (not known).
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <stdexcept>
+
+#include "prf_decision/hmm.hpp"
+#include "prf_decision/hmm_file.hpp"
+#include "prf_decision/hmm_learning.hpp"
+#include "prf_decision/hmm_sequence.hpp"
+
+namespace py = pybind11;
+
+namespace prf_decision {
+namespace {
+
+using Velocities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Labels = std::vector<int>;
+
+Sequence to_core(const Velocities& velocities, const Labels& labels) {
+  if (!labels.empty() && static_cast<Eigen::Index>(labels.size()) != velocities.rows()) {
+    throw std::invalid_argument("labels has " + std::to_string(labels.size()) + " values for " +
+                                std::to_string(velocities.rows()) + " velocities");
+  }
+  Sequence run(static_cast<std::size_t>(velocities.rows()));
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const Eigen::Vector3d velocity = velocities.row(static_cast<Eigen::Index>(k)).transpose();
+    if (!velocity.array().isNaN().all()) run[k].velocity = velocity;
+    if (labels.empty() || labels[k] == -1) continue;
+    if (labels[k] < 0 || labels[k] > 2) {
+      throw std::invalid_argument("label " + std::to_string(k) + " is " +
+                                  std::to_string(labels[k]) + ", must be -1 .. 2");
+    }
+    run[k].label = static_cast<Intent>(labels[k]);
+  }
+  return run;
+}
+
+std::vector<Sequence> to_core(const std::vector<std::pair<Velocities, Labels>>& runs) {
+  std::vector<Sequence> result;
+  for (const auto& [velocities, labels] : runs) result.push_back(to_core(velocities, labels));
+  return result;
+}
+
+Labels to_python(const std::vector<Intent>& states) {
+  Labels labels;
+  for (const Intent state : states) labels.push_back(static_cast<int>(state));
+  return labels;
+}
+
+// What the node believes after each observation, and ln P of all.
+std::pair<Velocities, double> filter(const HmmParameters& parameters,
+                                     const Velocities& velocities) {
+  const HmmFilter hmm(parameters);
+  HmmBelief belief = hmm.initial_belief();
+  Velocities posterior(velocities.rows(), 3);
+  for (Eigen::Index k = 0; k < velocities.rows(); ++k) {
+    const Eigen::Vector3d velocity = velocities.row(k).transpose();
+    belief = velocity.array().isNaN().all() ? hmm.predict(belief) : hmm.observe(belief, velocity);
+    posterior.row(k) = belief.posterior.transpose();
+  }
+  return {posterior, belief.log_likelihood};
+}
+
+Learned learn_runs(const std::vector<std::pair<Velocities, Labels>>& runs, int restarts,
+                   std::uint32_t seed, bool free_means, const OnIteration& on_iteration) {
+  LearningOptions options;
+  options.restarts = restarts;
+  options.seed = seed;
+  options.free_means = free_means;
+  return learn(to_core(runs), options, on_iteration);
+}
+
+}  // namespace
+}  // namespace prf_decision
+
+PYBIND11_MODULE(prf_decision, module) {
+  using namespace prf_decision;
+  module.attr("STATES") = std::vector<std::string>(kIntentNames.begin(), kIntentNames.end());
+
+  py::class_<HmmParameters>(module, "HmmParameters")
+      .def(py::init<>())
+      .def_readwrite("initial", &HmmParameters::initial)
+      .def_readwrite("transition", &HmmParameters::transition)
+      .def_readwrite("mean", &HmmParameters::mean)
+      .def_readwrite("covariance", &HmmParameters::covariance)
+      .def("validate", &HmmParameters::validate);
+  py::class_<Learned>(module, "Learned")
+      .def_readonly("parameters", &Learned::parameters)
+      .def_readonly("log_likelihood", &Learned::log_likelihood)
+      .def_readonly("converged", &Learned::converged)
+      .def_readonly("restart", &Learned::restart)
+      .def_readonly("refused", &Learned::refused);
+
+  module.def("load_hmm", &load_hmm, py::arg("path"));
+  module.def("hmm_text", &hmm_text, py::arg("parameters"), py::arg("comment") = "");
+  module.def("filter", &filter, py::arg("parameters"), py::arg("velocities"));
+  module.def(
+      "most_probable_path",
+      [](const HmmParameters& parameters, const Velocities& velocities) {
+        const StatePath path = most_probable_path(parameters, to_core(velocities, {}));
+        return std::pair(to_python(path.states), path.log_probability);
+      },
+      py::arg("parameters"), py::arg("velocities"));
+  module.def("learn", &learn_runs, py::arg("runs"), py::arg("restarts") = 8, py::arg("seed") = 1,
+             py::arg("free_means") = false, py::arg("on_iteration") = OnIteration());
+  module.def(
+      "draw",
+      [](const HmmParameters& parameters, std::size_t observations, std::uint32_t seed) {
+        const Sequence run = draw(parameters, observations, seed);
+        Velocities velocities(static_cast<Eigen::Index>(run.size()), 3);
+        std::vector<Intent> states;
+        for (std::size_t k = 0; k < run.size(); ++k) {
+          velocities.row(static_cast<Eigen::Index>(k)) = run[k].velocity->transpose();
+          states.push_back(*run[k].label);
+        }
+        return std::pair(velocities, to_python(states));
+      },
+      py::arg("parameters"), py::arg("observations"), py::arg("seed"));
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/hmm_learning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+namespace prf_decision {
+namespace {
+
+struct Totals {
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d transitions = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  // of the observations with a velocity
+  std::array<Eigen::Vector3d, kIntents> sum;
+  double log_likelihood = 0;
+};
+
+template <typename Visit>
+void for_each_velocity(const std::vector<Sequence>& runs, const Visit& visit) {
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    for (std::size_t k = 0; k < runs[run].size(); ++k) {
+      if (runs[run][k].velocity) {
+        visit(run, static_cast<Eigen::Index>(k), *runs[run][k].velocity);
+      }
+    }
+  }
+}
+
+bool any_label(const std::vector<Sequence>& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const Sequence& run) {
+    return std::any_of(run.begin(), run.end(), [](const Observation& o) { return o.label; });
+  });
+}
+
+[[noreturn]] void report_dead(std::size_t state, double weight) {
+  std::ostringstream text;
+  text << kIntentNames[state] << " holds " << weight << " observations, must hold at least "
+       << kLeastShare;
+  throw std::runtime_error(text.str());
+}
+
+Eigen::Matrix3d row_shares(const Eigen::Matrix3d& counts, const Eigen::Matrix3d& otherwise) {
+  Eigen::Matrix3d shares = otherwise;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (counts.row(i).sum() > 0) shares.row(i) = counts.row(i) / counts.row(i).sum();
+  }
+  return shares;
+}
+
+// The second moment of all velocities, m^2/s^2.
+Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double count = 0;
+  for_each_velocity(runs, [&](std::size_t, Eigen::Index, const Eigen::Vector3d& o) {
+    sum += o * o.transpose();
+    count += 1;
+  });
+  if (count < kIntents * kLeastShare) {
+    throw std::invalid_argument("there are " + std::to_string(static_cast<int>(count)) +
+                                " velocities, must be at least 12");
+  }
+  return sum / count;
+}
+
+// The first one spreads the states evenly over the speeds, the others at random.
+HmmParameters first_guess(const Eigen::Matrix3d& moment, bool free_means, int restart,
+                          std::mt19937& random) {
+  std::array<double, kIntents> size{0.3, 0.8, 1.6};
+  double stay = 0.9;
+  HmmParameters guess;
+  for (Eigen::Vector3d& mean : guess.mean) mean.setZero();
+  if (restart > 0) {
+    std::uniform_real_distribution<double> log_size(std::log(0.1), std::log(3.0));
+    std::uniform_real_distribution<double> share(0.5, 0.99);
+    std::normal_distribution<double> normal;
+    for (double& value : size) value = std::exp(log_size(random));
+    std::sort(size.begin(), size.end());
+    stay = share(random);
+    for (std::size_t i = 0; free_means && i < kIntents; ++i) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        guess.mean[i][axis] = std::sqrt(moment(axis, axis)) * normal(random);
+      }
+    }
+  }
+  guess.initial.setConstant(1.0 / 3);
+  guess.transition.setConstant((1 - stay) / 2);
+  guess.transition.diagonal().setConstant(stay);
+  for (std::size_t i = 0; i < kIntents; ++i) guess.covariance[i] = size[i] * size[i] * moment;
+  return guess;
+}
+
+HmmParameters in_order_of_speed(const HmmParameters& parameters) {
+  std::array<std::size_t, kIntents> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return mean_square_speed(parameters, a) < mean_square_speed(parameters, b);
+  });
+  HmmParameters sorted;
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const auto to = static_cast<Eigen::Index>(i);
+    const auto from = static_cast<Eigen::Index>(order[i]);
+    sorted.initial[to] = parameters.initial[from];
+    sorted.mean[i] = parameters.mean[order[i]];
+    sorted.covariance[i] = parameters.covariance[order[i]];
+    for (std::size_t j = 0; j < kIntents; ++j) {
+      sorted.transition(to, static_cast<Eigen::Index>(j)) =
+          parameters.transition(from, static_cast<Eigen::Index>(order[j]));
+    }
+  }
+  return sorted;
+}
+
+Learned climb(HmmParameters parameters, const std::vector<Sequence>& runs,
+              const LearningOptions& options, int restart, const OnIteration& on_iteration) {
+  const double observations = std::accumulate(
+      runs.begin(), runs.end(), 0.0,
+      [](double sum, const Sequence& run) { return sum + static_cast<double>(run.size()); });
+  Learned learned;
+  learned.restart = restart;
+  for (int iteration = 0; iteration < options.max_iterations && !learned.converged; ++iteration) {
+    const EmStep step = em_step(parameters, runs, options.free_means);
+    if (on_iteration) on_iteration(restart, iteration, step.log_likelihood);
+    if (!learned.log_likelihood.empty()) {
+      const double rise = step.log_likelihood - learned.log_likelihood.back();
+      learned.converged = rise < options.tolerance * observations;
+    }
+    learned.log_likelihood.push_back(step.log_likelihood);
+    parameters = step.parameters;
+  }
+  learned.parameters = any_label(runs) ? parameters : in_order_of_speed(parameters);
+  learned.parameters.validate();
+  return learned;
+}
+
+}  // namespace
+
+void LearningOptions::validate() const {
+  const auto require = [](bool holds, const char* name, double value, const char* bound) {
+    if (holds) return;
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + ", must be " +
+                                bound);
+  };
+  require(restarts >= 1 && restarts <= 1000, "restarts", restarts, "1 .. 1000");
+  require(max_iterations >= 2, "max_iterations", max_iterations, "at least 2");
+  require(tolerance > 0 && std::isfinite(tolerance), "tolerance", tolerance, "> 0");
+}
+
+EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& runs,
+               bool free_means) {
+  std::vector<Eigen::Matrix3Xd> posterior;
+  Totals totals;
+  for (Eigen::Vector3d& sum : totals.sum) sum.setZero();
+  for (const Sequence& run : runs) {
+    Smoothing smoothing = smooth(parameters, run);
+    totals.first += smoothing.posterior.col(0);
+    totals.transitions += smoothing.transitions;
+    totals.log_likelihood += smoothing.log_likelihood;
+    posterior.push_back(std::move(smoothing.posterior));
+  }
+  for_each_velocity(runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o) {
+    totals.weight += posterior[run].col(k);
+    for (std::size_t i = 0; i < kIntents; ++i) {
+      totals.sum[i] += posterior[run](static_cast<Eigen::Index>(i), k) * o;
+    }
+  });
+
+  EmStep step{parameters, totals.log_likelihood};
+  HmmParameters& next = step.parameters;
+  next.initial = totals.first / totals.first.sum();
+  next.transition = row_shares(totals.transitions, parameters.transition);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const double weight = totals.weight[static_cast<Eigen::Index>(i)];
+    if (weight < kLeastShare) report_dead(i, weight);
+    if (free_means) next.mean[i] = totals.sum[i] / weight;
+    next.covariance[i].setZero();
+  }
+  for_each_velocity(runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o) {
+    for (std::size_t i = 0; i < kIntents; ++i) {
+      const Eigen::Vector3d d = o - next.mean[i];
+      next.covariance[i] += posterior[run](static_cast<Eigen::Index>(i), k) * d * d.transpose();
+    }
+  });
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    next.covariance[i] /= totals.weight[static_cast<Eigen::Index>(i)];
+    next.covariance[i] = (0.5 * (next.covariance[i] + next.covariance[i].transpose())).eval();
+  }
+  return step;
+}
+
+Learned learn(const std::vector<Sequence>& runs, const LearningOptions& options,
+              const OnIteration& on_iteration) {
+  options.validate();
+  const Eigen::Matrix3d moment = pooled_moment(runs);
+  std::mt19937 random(options.seed);
+  Learned best;
+  std::vector<std::string> refused;
+  for (int restart = 0; restart < options.restarts; ++restart) {
+    const HmmParameters guess = first_guess(moment, options.free_means, restart, random);
+    try {
+      Learned learned = climb(guess, runs, options, restart, on_iteration);
+      const bool better =
+          best.log_likelihood.empty() || learned.log_likelihood.back() > best.log_likelihood.back();
+      if (better) best = std::move(learned);
+    } catch (const std::exception& error) {
+      refused.push_back("restart " + std::to_string(restart) + ": " + error.what());
+    }
+  }
+  if (best.log_likelihood.empty()) {
+    throw std::invalid_argument("no valid model: " + refused.front());
+  }
+  best.refused = std::move(refused);
+  return best;
+}
+
+}  // namespace prf_decision
