@@ -67,7 +67,19 @@ def usage(arguments):
 
 
 def show(value):
+    if value is None:
+        return "the package's own"
     return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def value(name, text, arguments):
+    """The parsed value of one argument."""
+    if name not in arguments:
+        raise ArgumentError(f"unknown argument '{name}'")
+    try:
+        return arguments[name].parse(text)
+    except ValueError:
+        raise ArgumentError(f"invalid {name}:={text}, valid: {arguments[name].valid}") from None
 
 
 def parse(words, arguments):
@@ -77,11 +89,19 @@ def parse(words, arguments):
         name, separator, text = word.partition(":=")
         if not separator:
             raise ArgumentError(f"'{word}' is not of the form name:=value")
-        if name not in arguments:
-            raise ArgumentError(f"unknown argument '{name}'")
-        try:
-            values[name] = arguments[name].parse(text)
-        except ValueError:
-            raise ArgumentError(
-                f"invalid {name}:={text}, valid: {arguments[name].valid}") from None
+        values[name] = value(name, text, arguments)
+    return values
+
+
+def parse_lists(words, arguments):
+    """{name: [value, ...]} of the arguments that `words` name; commas part values."""
+    values = {}
+    for word in words:
+        name, separator, text = word.partition(":=")
+        if not separator:
+            raise ArgumentError(f"'{word}' is not of the form name:=value")
+        parsed = [value(name, part, arguments) for part in text.split(",")]
+        if len(set(parsed)) < len(parsed):
+            raise ArgumentError(f"{word} says a value twice")
+        values[name] = parsed
     return values

@@ -48,6 +48,14 @@ class Parent(roslaunch.parent.ROSLaunchParent):
             node.required = False
 
 
+def not_launched(parent):
+    """package/program of the nodes that roslaunch could not find; it only logs that."""
+    begun = [process.name.rpartition("-")[0]
+             for process in [*parent.pm.procs, *parent.pm.dead_list]]
+    return [f"{node.package}/{node.type}" for node in parent.config.nodes
+            if node.name not in begun]
+
+
 def main(words):
     reporter = Reporter(int(words[0]))
     port, launch_file, arguments = int(words[1]), words[2], words[3:]
@@ -57,6 +65,10 @@ def main(words):
         sigint_timeout=STOP_TIMEOUT, sigterm_timeout=STOP_TIMEOUT)
     try:
         parent.start(auto_terminate=False)
+        absent = not_launched(parent)
+        if absent:
+            reporter.tell(error="cannot start " + ", ".join(absent) + ": is it built?")
+            return 1
         for process in list(parent.pm.dead_list):  # dead before the listener was heard
             reporter.process_died(process.name, process.exit_code)
         reporter.tell(started=[node.name for node in parent.config.nodes])

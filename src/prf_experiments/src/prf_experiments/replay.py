@@ -13,7 +13,7 @@ from prf_experiments import connections, digest, processes, recording, session
 
 PLAYED = ["clock"] + recording.SENSORS
 COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
-FRAMEWORK_ARGUMENTS = ["planner", "framework", "demonstration"]
+FRAMEWORK_ARGUMENTS = ["planner", "framework", "decision", "demonstration"]
 
 
 @contextlib.contextmanager
@@ -40,7 +40,7 @@ def replay(bag, folder, rate):
         folder=folder, bag="replay.bag",
         launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
-                          if name in chosen],
+                          if chosen.get(name) is not None],
         topics=recording.OUTPUTS + recording.TRANSFORMS,
         links=connections.trial_links("player", simulated=False), driver="player")
     with play.running() as launch, player(bag, play.log("player.log"), rate) as playing, \

@@ -53,24 +53,42 @@ def packaged(*parts):
     return os.path.join(rospkg.RosPack().get_path("prf_experiments"), *parts)
 
 
+def check_space(folder):
+    free = shutil.disk_usage(folder).free
+    if free < NEEDED_SPACE:
+        raise SessionError(f"disk full: {free >> 20} MiB are free in {folder}, "
+                           f"a recording may need {NEEDED_SPACE >> 20}")
+
+
+@contextlib.contextmanager
+def _refused_in_one_line(results):
+    try:
+        yield
+    except OSError as error:
+        raise SessionError(f"results folder {results} cannot be written: "
+                           f"{error.strerror}") from None
+
+
+def use_folder(folder):
+    """The folder with a log folder in it, new, and with room for a bag."""
+    with _refused_in_one_line(folder):
+        os.makedirs(os.path.join(folder, "log"))
+        check_space(folder)
+    return folder
+
+
 def create_folder(results, name):
     """results/<time>_<name>/ with a log folder, new, writable and with room for a bag."""
     stamp = time.strftime("%Y%m%d-%H%M%S")
-    try:
+    with _refused_in_one_line(results):
         os.makedirs(results, exist_ok=True)
-        free = shutil.disk_usage(results).free
-        if free < NEEDED_SPACE:
-            raise SessionError(f"disk full: {free >> 20} MiB are free in {results}, "
-                               f"a recording may need {NEEDED_SPACE >> 20}")
+        check_space(results)
         for suffix in [""] + [f"_{count}" for count in range(2, 100)]:
             folder = os.path.join(results, f"{stamp}_{name}{suffix}")
             with contextlib.suppress(FileExistsError):
                 os.mkdir(folder)
                 os.mkdir(os.path.join(folder, "log"))
                 return folder
-    except OSError as error:
-        raise SessionError(f"results folder {results} cannot be written: "
-                           f"{error.strerror}") from None
     raise SessionError(f"results folder {results} holds too many folders of this second")
 
 

@@ -9,38 +9,12 @@ import sys
 import rospkg
 
 from prf_experiments import arguments as args
-from prf_experiments import connections, demonstration, judge, processes, recording, session
+from prf_experiments import (connections, demonstration, judge, processes, recording, session,
+                             trial_arguments)
 
 SIMULATOR = "platform_sim"
 START_SERVICE = "/platform_sim/start"
 EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
-
-
-def trial_arguments():
-    """Valid arguments of a trial."""
-    argument = args.Argument
-    return {
-        "motion": argument("light", **args.choice("none", "light", "heavy"),
-                           meaning="how the platform moves"),
-        "gait": argument("stand", **args.choice("stand", "step"), meaning="what the legs do"),
-        "planner": argument("elte", **args.choice("elte", "lte", "elastic_map", "dmp"),
-                            meaning="how the skill is adapted"),
-        "framework": argument(True, **args.boolean(),
-                              meaning="false: adapt once, to the first sight, execute blindly"),
-        "seed": argument(1, **args.integer(0, 2**31 - 1), meaning="of every random draw"),
-        "time_limit": argument(60.0, **args.number(1.0, 600.0), meaning="simulated s"),
-        "real_time_factor": argument(0.0, **args.number(0.0, 100.0),
-                                     meaning="at most so fast, 0: as fast as it goes"),
-        "demonstration": argument(session.packaged("demonstrations", "inspect_box.csv"),
-                                  **args.path(), meaning="CSV file of the skill"),
-        "results": argument(os.path.abspath("results"), **args.path(),
-                            meaning="folder that gets the trial's folder"),
-        "keep_bag": argument(True, **args.boolean(), meaning="false: delete the bag at the end"),
-    }
-
-
-IN_NAME = ["motion", "gait", "planner", "framework", "seed"]
-LAUNCHED = IN_NAME + ["time_limit", "real_time_factor", "demonstration"]
 
 
 def versions():
@@ -58,11 +32,10 @@ def versions():
 
 def describe(values):
     """What the bag says about itself."""
-    valid = trial_arguments()
-    words = [f"{name}:={args.show(values[name])}" for name in LAUNCHED
-             if name in IN_NAME or values[name] != valid[name].default]
-    return {"command": " ".join(["rosrun prf_experiments run_trial"] + words),
-            "arguments": {name: values[name] for name in LAUNCHED}, "versions": versions()}
+    words = ["rosrun prf_experiments run_trial", *trial_arguments.words(values)]
+    return {"command": " ".join(words),
+            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
+            "versions": versions()}
 
 
 def simulate(run, description):
@@ -100,26 +73,37 @@ def evaluate(folder, description, wall, failure, progress):
         stream.write("\n")
     progress.show("drawing the report", always=True)
     report.write(os.path.join(folder, "report.html"), bag, data, content,
-                 demonstration.read(description["arguments"]["demonstration"]))
+                 demonstration.read(skill(description["arguments"])))
     progress.close()
     return content
 
 
-def run(values, launch_file=None):
-    """Runs one trial and prints what people want to know. Returns the exit code."""
-    demonstration.read(values["demonstration"])
-    description = describe(values)
-    name = "_".join(f"{key}-{args.show(values[key])}" for key in IN_NAME)
-    folder = session.create_folder(values["results"], name)
-    trial = session.Session(
-        folder=folder, bag="trial.bag",
-        launch_file=launch_file or session.packaged("launch", "trial.launch"),
-        launch_arguments=[f"{key}:={args.show(values[key])}" for key in LAUNCHED]
-        + ["paused:=true"],
+def skill(values):
+    return values["demonstration"] or session.packaged("demonstrations", "inspect_box.csv")
+
+
+def session_of(values, folder):
+    """The trial as a session that leaves its bag in `folder`."""
+    return session.Session(
+        folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
+        launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED
+                          if values[name] is not None] + ["paused:=true"],
         topics=recording.RECORDED,
         links=connections.trial_links(SIMULATOR)
         | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR),
         driver=SIMULATOR)
+
+
+def run(values, folder=None):
+    """Runs one trial and prints what people want to know. Returns the exit code.
+
+    Without `folder` the trial gets a new one in the results folder.
+    """
+    demonstration.read(skill(values))
+    description = describe(values)
+    folder = (session.create_folder(values["results"], trial_arguments.name(values))
+              if folder is None else session.use_folder(folder))
+    trial = session_of(values, folder)
     print(description["command"], flush=True)
     failure, wall = "", None
     try:
@@ -143,13 +127,20 @@ def run(values, launch_file=None):
 
 
 def main(words):
-    valid = trial_arguments()
+    valid = trial_arguments.TRIAL
     if any(word in ("-h", "--help") for word in words):
-        print("usage: run_trial [name:=value ...]\n" + args.usage(valid))
+        print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + args.usage(valid))
         return EXIT_OK
+    folder = None
+    if len(words) > 1 and words[0] == "--into":
+        folder, words = os.path.abspath(words[1]), words[2:]
     try:
         values = args.parse(words, valid)
     except args.ArgumentError as error:
         print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
         return EXIT_USAGE
-    return session.guarded("run_trial", lambda: run(values))
+    return session.guarded("run_trial", lambda: run(values, folder))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -30,11 +30,11 @@ def node_pid(name):
 
 class MissingNode(unittest.TestCase):
     @contextlib.contextmanager
-    def launched(self, *words):
+    def launched(self, *words, launch_file=LAUNCH):
         with tempfile.TemporaryDirectory() as folder, processes.reserved_port() as port:
             before = dict(os.environ)
             os.environ.update(processes.master_environment(port, folder))
-            launch = processes.Launch(port, LAUNCH, list(words), folder)
+            launch = processes.Launch(port, launch_file, list(words), folder)
             try:
                 launch.wait_until_started()
                 yield launch
@@ -51,6 +51,15 @@ class MissingNode(unittest.TestCase):
         self.assertTrue(launch.has_ended("platform_sim"), "the simulator waits for ever")
         self.assertNotEqual(launch.exit_code("platform_sim"), 0)
         return launch.describe_end("platform_sim")
+
+    def test_a_program_that_is_not_built_is_named_at_once(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".launch") as file:
+            file.write('<launch><node pkg="roscpp" type="no_such_program" name="n"/></launch>')
+            file.flush()
+            with self.assertRaises(processes.ProcessError) as caught:
+                with self.launched(launch_file=file.name):
+                    pass
+        self.assertIn("cannot start roscpp/no_such_program", str(caught.exception))
 
     def test_absent_controller_is_named_by_its_topic(self):
         with self.launched("without:=arm_controller") as launch:

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
+import os
+
+from prf_experiments.arguments import Argument, boolean, choice, integer, number, path, show
+
+# Given to trial.launch, and part of every result's name.
+NAMED = {
+    "motion": Argument("light", **choice("none", "light", "heavy"),
+                       meaning="how the platform moves"),
+    "gait": Argument("stand", **choice("stand", "step"), meaning="what the legs do"),
+    "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
+                        meaning="how the skill is adapted"),
+    "framework": Argument(True, **boolean(),
+                          meaning="false: adapt once, to the first sight, execute blindly"),
+    "seed": Argument(1, **integer(0, 2**31 - 1), meaning="of every random draw"),
+}
+# Given to trial.launch, and named where they are not the default.
+LAUNCHED = {
+    **NAMED,
+    "decision": Argument("hmm", **choice("hmm", "forward"),
+                         meaning="forward: never waits or goes back for the target's motion"),
+    "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),
+    "real_time_factor": Argument(0.0, **number(0.0, 100.0),
+                                 meaning="at most so fast, 0: as fast as it goes"),
+    "demonstration": Argument(None, **path(), meaning="CSV file of the skill"),
+}
+RESULTS = {"results": Argument(os.path.abspath("results"), **path(),
+                               meaning="folder that gets the results")}
+TRIAL = {
+    **LAUNCHED, **RESULTS,
+    "keep_bag": Argument(True, **boolean(), meaning="false: delete the bag at the end"),
+}
+
+
+def words(values):
+    """The launched arguments that say more than their defaults, as name:=value."""
+    return [f"{name}:={show(values[name])}" for name, argument in LAUNCHED.items()
+            if name in NAMED or values[name] != argument.default]
+
+
+def name(values):
+    """Name of a trial, the same for the same arguments; good for a folder."""
+    short = {**values, "demonstration": os.path.basename(values["demonstration"] or "") or None}
+    return "_".join(word.replace(":=", "-") for word in words(short))
