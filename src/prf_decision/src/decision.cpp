@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "prf_decision/execution_cursor.hpp"
 #include "text.hpp"
@@ -58,13 +59,46 @@ void DecisionParameters::validate() const {
   hmm.validate();
 }
 
+void Order::validate() const {
+  require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0");
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0");
+}
+
 Decision::Decision(const DecisionParameters& parameters)
     : parameters_((parameters.validate(), parameters)),
       hmm_(parameters.hmm),
-      belief_(hmm_.initial_belief()) {}
+      belief_(hmm_.initial_belief()) {
+  if (parameters_.autostart) order_ = Order();
+}
+
+bool Decision::can_begin() const {
+  const bool ended = state_ == State::kDone || state_ == State::kStopped;
+  return !order_ && (!execution_ || ended);
+}
+
+void Decision::begin(const Order& order) {
+  order.validate();
+  if (!can_begin()) throw std::invalid_argument("an execution is under way");
+  order_ = order;
+  preempted_ = false;
+}
+
+void Decision::begin_execution(Stamp stamp) {
+  execution_ = order_;
+  if (execution_->time_limit == Duration{0}) execution_->time_limit = parameters_.time_limit;
+  if (execution_->hold_time == Duration{0}) execution_->hold_time = parameters_.hold_time;
+  order_.reset();
+  begun_ = entered_ = stamp;
+  state_ = State::kWaiting;
+  cause_ = Event::kCalm;
+  reason_.clear();
+  tracked_since_.reset();
+  rewinding_ = !execution_->resume && cursor_ > 0;
+}
 
 Outcome Decision::update(const Tick& tick) {
-  if (!first_tick_) first_tick_ = last_tick_ = entered_ = tick.stamp;
+  if (!last_tick_) last_tick_ = tick.stamp;
+  if (order_) begin_execution(tick.stamp);
   take_in(tick);
   const Assessment assessment = assess(tick);
   change_state(tick, assessment);
@@ -111,7 +145,8 @@ std::optional<Objection> Decision::object_to_target(const Tick& tick) const {
 }
 
 std::optional<Objection> Decision::object(const Tick& tick) const {
-  const Duration gap = tick.stamp - last_tick_;
+  if (!execution_) return hazard("no goal yet");
+  const Duration gap = tick.stamp - *last_tick_;
   if (gap > parameters_.max_gap) {
     return hazard(sentence("joint_states silent for ", to_seconds(gap), " s"));
   }
@@ -127,6 +162,7 @@ std::optional<Objection> Decision::object(const Tick& tick) const {
 
 Decision::Assessment Decision::assess(const Tick& tick) const {
   if (const auto objection = object(tick)) return {objection->event, objection->reason, true};
+  if (rewinding_) return {Event::kRewind, "back to the start of the skill", false};
   if (!parameters_.framework) return {Event::kCalm, "", false};
   const Intent intent = most_probable(belief_);
   if (intent == Intent::kForward) return {Event::kCalm, "", false};
@@ -144,6 +180,7 @@ bool Decision::try_event(Stamp stamp, Event event, const std::string& reason) {
   const State next = step(state_, event, dwelled);
   if (next == state_) return false;
   state_ = next;
+  cause_ = event;
   entered_ = stamp;
   reason_ = reason;
   return true;
@@ -151,10 +188,16 @@ bool Decision::try_event(Stamp stamp, Event event, const std::string& reason) {
 
 // At most one change per tick: the first event, in this order, that has a row.
 void Decision::change_state(const Tick& tick, const Assessment& assessment) {
-  const Duration elapsed = tick.stamp - *first_tick_;
-  if (elapsed > parameters_.time_limit &&
+  const bool preempted = std::exchange(preempted_, false);
+  if (!execution_) {
+    reason_ = assessment.reason;
+    return;
+  }
+  if (preempted && try_event(tick.stamp, Event::kPreempted, "preempted")) return;
+  const Duration elapsed = tick.stamp - begun_;
+  if (elapsed > execution_->time_limit &&
       try_event(tick.stamp, Event::kTimeUp,
-                sentence("not done within ", to_seconds(parameters_.time_limit), " s"))) {
+                sentence("not done within ", to_seconds(execution_->time_limit), " s"))) {
     return;
   }
   if (try_event(tick.stamp, assessment.event, assessment.reason)) return;
@@ -163,9 +206,9 @@ void Decision::change_state(const Tick& tick, const Assessment& assessment) {
                 sentence("skill complete after ", to_seconds(elapsed), " s"))) {
     return;
   }
-  const bool held = tracked_since_ && tick.stamp - *tracked_since_ >= parameters_.hold_time;
+  const bool held = tracked_since_ && tick.stamp - *tracked_since_ >= execution_->hold_time;
   if (held && try_event(tick.stamp, Event::kHeld,
-                        sentence("tracked for ", to_seconds(parameters_.hold_time), " s"))) {
+                        sentence("tracked for ", to_seconds(execution_->hold_time), " s"))) {
     return;
   }
   if (explains_itself(state_) && !assessment.reason.empty()) reason_ = assessment.reason;
@@ -187,10 +230,11 @@ std::optional<MovingPose> Decision::reference(Stamp stamp, bool objected) const 
 }
 
 std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
-  const Duration dt = tick.stamp - last_tick_;
+  const Duration dt = tick.stamp - *last_tick_;
   if (acts_on_plan(state_)) {
     const auto direction = state_ == State::kForward ? Direction::kForward : Direction::kBack;
     cursor_ = advance_cursor(*plan_, cursor_, direction, dt);
+    rewinding_ = rewinding_ && cursor_ > 0;
   }
   const std::optional<MovingPose> wanted = reference(tick.stamp, objected);
   const bool holds = state_ == State::kWaiting || state_ == State::kStopped;
@@ -221,10 +265,19 @@ Progress Decision::report(Stamp stamp) const {
   progress.state = state_;
   progress.reason = reason_;
   progress.posterior = parameters_.framework ? belief_.posterior : Eigen::Vector3d::UnitX();
+  progress.cause = cause_;
   progress.cursor = cursor_;
   if (plan_) {
+    progress.share = cursor_ / static_cast<double>(plan_->poses.size() - 1);
     progress.frozen = frozen_nodes(*plan_, cursor_);
     progress.time_to_go = time_to_go(*plan_, cursor_);
+  }
+  if (plan_ && setpoint_ && forecast_ && !forecast_->predictions.empty()) {
+    const Pose goal = goal_at(stamp).pose;
+    const Eigen::Vector3d offset = setpoint_->position - goal.position;
+    const Eigen::Vector3d axis = goal.orientation * Eigen::Vector3d::UnitZ();
+    progress.goal_distance = offset.norm();
+    progress.axis_distance = (offset - offset.dot(axis) * axis).norm();
   }
   return progress;
 }

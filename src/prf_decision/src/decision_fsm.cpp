@@ -9,7 +9,8 @@ namespace {
 constexpr std::array<const char*, kStates> kStateNames{"waiting",  "forward", "pause", "reverse",
                                                        "tracking", "retract", "done",  "stopped"};
 constexpr std::array<const char*, kEvents> kEventNames{
-    "calm", "unsteady", "unstable", "hazard", "overdue", "lost", "time up", "complete", "held"};
+    "calm",    "unsteady", "unstable", "hazard", "overdue",  "lost",
+    "time up", "complete", "held",     "rewind", "preempted"};
 
 std::string label(const Row& row) {
   return std::string(name(row.event)) + (row.guard == Guard::kDwelled ? " [dwelled]" : "");

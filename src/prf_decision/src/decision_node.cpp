@@ -7,6 +7,7 @@
 
 #include "conversions.hpp"
 #include "parameters.hpp"
+#include "skill_action.hpp"
 
 namespace prf_decision {
 namespace {
@@ -17,7 +18,10 @@ constexpr double kWarnPeriod = 1.0;  // s
 class DecisionNode {
  public:
   explicit DecisionNode(const NodeParameters& parameters)
-      : parameters_(parameters), gate_(parameters.gate), decision_(parameters.decision) {
+      : parameters_(parameters),
+        gate_(parameters.gate),
+        decision_(parameters.decision),
+        action_(node_, decision_, parameters.demonstration) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     subscribers_ = {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
@@ -30,10 +34,12 @@ class DecisionNode {
         node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("decision", this, &DecisionNode::diagnose);
+    action_.start();
   }
 
  private:
   void on_joint_states(const sensor_msgs::JointState& message) {
+    action_.see_joints(message);
     account("joint_states", gate_.push_tick(to_core(message.header.stamp)));
     process();
   }
@@ -74,6 +80,7 @@ class DecisionNode {
     if (push != Push::kNewRun) return;
     ROS_WARN("clock of %s went back: new run", topic.c_str());
     decision_ = Decision(parameters_.decision);
+    action_.end_run();
     last_ = Progress();
     diagnostics_.force_update();
   }
@@ -88,6 +95,7 @@ class DecisionNode {
       if (progress.state != last_.state) {
         ROS_INFO("%s -> %s: %s", name(last_.state), name(progress.state), progress.reason.c_str());
       }
+      action_.update(progress);
       last_ = progress;
       count("ticks");
       diagnostics_.update();
@@ -108,12 +116,13 @@ class DecisionNode {
     for (const auto& [what, number] : counters_) status.add(what, number);
   }
 
+  ros::NodeHandle node_;
   NodeParameters parameters_;
   TickGate gate_;
   Decision decision_;
+  SkillAction action_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
-  ros::NodeHandle node_;
   ros::Publisher progress_publisher_;
   ros::Publisher setpoint_publisher_;
   std::vector<ros::Subscriber> subscribers_;

@@ -6,92 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "scenario.hpp"
+#include "decision_world.hpp"
 
 namespace prf_decision {
 namespace {
-
-const Eigen::Vector3d kTarget(1.0, 0, 0.5);  // puts the hand where the straight skill ends
-const Eigen::Vector3d kStill(0, 0, 0);
-
-// Ticks at 100 Hz; every third one brings a forecast of the target as it then is, and the tick
-// after it the same plan again.
-class World {
- public:
-  explicit World(const DecisionParameters& parameters = usual_parameters())
-      : decision_(parameters) {}
-
-  Outcome tick() {
-    Tick tick;
-    tick.stamp = now_;
-    tick.forecast_stale = forecast_stale;
-    tick.plan_stale = plan_stale;
-    if (count_ % 3 == 0 && !forecast_stale) {
-      auto seen = std::make_shared<Forecast>(
-          forecast_of(now_ - from_seconds(0.06), position, velocity, status));
-      if (status != TargetStatus::kTracking) seen->since_measurement = seen->stamp - last_seen_;
-      if (status == TargetStatus::kNoTarget) seen->predictions.clear();
-      if (status == TargetStatus::kTracking) last_seen_ = seen->stamp;
-      tick.forecasts.push_back({seen->stamp, seen});
-    }
-    if (count_ % 3 == 1 && answers && !plan_stale) {
-      tick.answer = PlanAnswer{now_ - kTickPeriod, plan, plan ? "" : "no solution"};
-    }
-    ++count_;
-    now_ += kTickPeriod;
-    const Outcome outcome = decision_.update(tick);
-    check_continuity(outcome);
-    return outcome;
-  }
-
-  // Ticks until the state is reached; the outcome of the last tick.
-  Outcome until(State state, double seconds) {
-    Outcome outcome = tick();
-    for (const Stamp end = now_ + from_seconds(seconds); outcome.progress.state != state;) {
-      if (now_ > end) {
-        ADD_FAILURE() << "still " << name(outcome.progress.state) << ", not " << name(state) << ": "
-                      << outcome.progress.reason;
-        break;
-      }
-      outcome = tick();
-    }
-    return outcome;
-  }
-
-  Outcome run(double seconds) {
-    Outcome outcome;
-    for (const Stamp end = now_ + from_seconds(seconds); now_ < end;) outcome = tick();
-    return outcome;
-  }
-
-  void leap(double seconds) { now_ += from_seconds(seconds); }
-
-  Eigen::Vector3d position = kTarget;
-  Eigen::Vector3d velocity = kStill;
-  TargetStatus status = TargetStatus::kTracking;
-  bool forecast_stale = false;
-  bool plan_stale = false;
-  bool answers = true;
-  std::shared_ptr<const Trajectory> plan = std::make_shared<Trajectory>(straight_skill());
-
- private:
-  void check_continuity(const Outcome& outcome) {
-    if (!outcome.setpoint) return;
-    const Eigen::Vector3d& at = outcome.setpoint->pose.position;
-    // The skill runs at 0.3 m/s; the gap closes at 0.2 m/s on top of the target's speed.
-    const double fastest = std::max(0.3 * 1.2, velocity.norm()) + 0.2;
-    if (setpoint_) {
-      EXPECT_LT((at - *setpoint_).norm(), fastest * to_seconds(kTickPeriod) + 1e-9);
-    }
-    setpoint_ = at;
-  }
-
-  Decision decision_;
-  Stamp now_ = std::chrono::seconds(50);
-  Stamp last_seen_{0};
-  int count_ = 0;
-  std::optional<Eigen::Vector3d> setpoint_;
-};
 
 TEST(Decision, WaitsWithoutATargetAndSaysSo) {
   World world;

@@ -14,22 +14,25 @@ constexpr std::array kAllStates{State::kWaiting,  State::kForward, State::kPause
                                 State::kTracking, State::kRetract, State::kDone,  State::kStopped};
 constexpr std::array kAllEvents{Event::kCalm,   Event::kUnsteady, Event::kUnstable,
                                 Event::kHazard, Event::kOverdue,  Event::kLost,
-                                Event::kTimeUp, Event::kComplete, Event::kHeld};
+                                Event::kTimeUp, Event::kComplete, Event::kHeld,
+                                Event::kRewind, Event::kPreempted};
 
 bool listed(State state, Event event) {
   return std::any_of(kTable.begin(), kTable.end(),
                      [&](const Row& row) { return row.from == state && row.event == event; });
 }
 
-// What the issue of the decision demands, written down a second time and independently.
+// What is demanded of the decision, written down a second time and independently.
 const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kWaiting, Event::kCalm}, State::kForward},
+    {{State::kWaiting, Event::kRewind}, State::kReverse},
     {{State::kForward, Event::kUnsteady}, State::kPause},
     {{State::kForward, Event::kUnstable}, State::kReverse},
     {{State::kForward, Event::kHazard}, State::kPause},
     {{State::kForward, Event::kOverdue}, State::kReverse},
     {{State::kForward, Event::kComplete}, State::kTracking},
     {{State::kPause, Event::kCalm}, State::kForward},
+    {{State::kPause, Event::kRewind}, State::kReverse},
     {{State::kPause, Event::kUnstable}, State::kReverse},
     {{State::kPause, Event::kOverdue}, State::kReverse},
     {{State::kReverse, Event::kCalm}, State::kForward},
@@ -47,6 +50,7 @@ const std::map<std::pair<State, Event>, State> kDemanded{
 State demanded(State state, Event event) {
   const bool final = state == State::kDone || state == State::kStopped;
   if (!final && event == Event::kTimeUp) return State::kStopped;
+  if (!final && event == Event::kPreempted) return State::kStopped;
   if (!final && state != State::kWaiting && event == Event::kLost) return State::kStopped;
   const auto found = kDemanded.find({state, event});
   return found == kDemanded.end() ? state : found->second;

@@ -33,7 +33,7 @@ class DecisionRefusals(unittest.TestCase):
     def setUp(self):
         with open(CONFIG, encoding="utf-8") as file:
             self.valid = yaml.safe_load(file)
-        self.valid.update(framework=True, hmm_file=HMM)
+        self.valid.update(framework=True, autostart=True, demonstration="", hmm_file=HMM)
 
     def assert_refused(self, parameters, culprit):
         code, output = start_with(parameters)
@@ -67,6 +67,8 @@ class DecisionRefusals(unittest.TestCase):
             ("workspace_radius", -2.0, "workspace_radius is -2.000000, must be > 0"),
             ("max_target_speed", infinity, "max_target_speed is inf, must be > 0"),
             ("framework", "yes", "framework = yes, must be true or false"),
+            ("autostart", 1, "autostart = 1, must be true or false"),
+            ("demonstration", 2.0, "demonstration"),
             ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
             ("speed", 1.0, "speed = 1, must be absent"),
         ]

@@ -21,17 +21,27 @@ namespace prf_decision {
 
 struct DecisionParameters {
   bool framework = true;
+  bool autostart = true;          // the first execution begins without an order
   Duration max_gap{0};            // between ticks, beyond it joint_states count as silent
   Duration lead{0};               // the followed goal is taken this long after the tick
   Duration hold_time{0};          // the target must be tracked for this long
   Duration dwell_time{0};         // least time in a state before the HMM may change it
-  Duration time_limit{0};         // from the first tick
+  Duration time_limit{0};         // from the execution's first tick
   double tracking_tolerance = 0;  // set-point to goal, m
   CatchUp catch_up;
   GuardParameters guards;
   HmmParameters hmm;
 
   // std::invalid_argument names the parameter, its value and the bound.
+  void validate() const;
+};
+
+// What an execution is asked for.
+struct Order {
+  Duration time_limit{0};  // 0: as in the parameters
+  Duration hold_time{0};   // 0: as in the parameters
+  bool resume = false;     // from where the cursor stands; else back to the start first
+
   void validate() const;
 };
 
@@ -44,6 +54,10 @@ struct Progress {
   double cursor = 0;
   std::size_t frozen = 0;
   Duration time_to_go{0};
+  double share = 0;                     // of the skill executed, 0 .. 1
+  Event cause = Event::kCalm;           // that led into the state
+  std::optional<double> goal_distance;  // set-point to where the skill ends now, m
+  std::optional<double> axis_distance;  // the same to the line along which the hand arrives there
 };
 
 struct Outcome {
@@ -58,6 +72,13 @@ class Decision {
 
   [[nodiscard]] Outcome update(const Tick& tick);
 
+  // An execution can be ordered when none is under way. It begins with the next tick.
+  [[nodiscard]] bool can_begin() const;
+  void begin(const Order& order);
+
+  // Stops whatever is under way at the next tick, in any state.
+  void preempt() { preempted_ = true; }
+
  private:
   struct Assessment {
     Event event;
@@ -65,6 +86,7 @@ class Decision {
     bool objected;  // a guard spoke, not the HMM
   };
 
+  void begin_execution(Stamp stamp);
   void take_in(const Tick& tick);
   [[nodiscard]] std::optional<Objection> object_to_target(const Tick& tick) const;
   [[nodiscard]] std::optional<Objection> object(const Tick& tick) const;
@@ -80,9 +102,14 @@ class Decision {
   HmmFilter hmm_;
   HmmBelief belief_;
   State state_ = State::kWaiting;
+  Event cause_ = Event::kCalm;
   std::string reason_;
-  std::optional<Stamp> first_tick_;
-  Stamp last_tick_{0};
+  std::optional<Order> order_;      // that begins with the next tick
+  std::optional<Order> execution_;  // under way or ended
+  bool preempted_ = false;
+  bool rewinding_ = false;  // the cursor goes back to the start first
+  Stamp begun_{0};          // the execution
+  std::optional<Stamp> last_tick_;
   Stamp entered_{0};  // when the state was entered
   std::shared_ptr<const Forecast> forecast_;
   std::shared_ptr<const Trajectory> plan_;

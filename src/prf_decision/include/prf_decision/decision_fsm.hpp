@@ -26,9 +26,11 @@ enum class Event {
   kLost,      // target unseen for so long that the skill is given up
   kTimeUp,    // time limit passed
   kComplete,  // the cursor stands on the last node
-  kHeld       // the target was tracked for the hold time
+  kHeld,      // the target was tracked for the hold time
+  kRewind,    // no guard objects, the skill is to begin but the cursor is not at its start
+  kPreempted  // asked to stop
 };
-inline constexpr std::size_t kEvents = 9;
+inline constexpr std::size_t kEvents = 11;
 
 enum class Guard { kNone, kDwelled };
 
@@ -41,42 +43,50 @@ struct Row {
 
 // clang-format off
 inline constexpr std::array kTable{
-    //  state             event             guard            next
-    Row{State::kWaiting,  Event::kCalm,     Guard::kNone,    State::kForward},
-    Row{State::kWaiting,  Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    //  state              event              guard            next
+    Row{State::kWaiting,   Event::kCalm,      Guard::kNone,    State::kForward},
+    Row{State::kWaiting,   Event::kRewind,    Guard::kNone,    State::kReverse},
+    Row{State::kWaiting,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kWaiting,   Event::kPreempted, Guard::kNone,    State::kStopped},
 
-    Row{State::kForward,  Event::kUnsteady, Guard::kDwelled, State::kPause},
-    Row{State::kForward,  Event::kUnstable, Guard::kDwelled, State::kReverse},
-    Row{State::kForward,  Event::kHazard,   Guard::kNone,    State::kPause},
-    Row{State::kForward,  Event::kOverdue,  Guard::kNone,    State::kReverse},
-    Row{State::kForward,  Event::kComplete, Guard::kNone,    State::kTracking},
-    Row{State::kForward,  Event::kLost,     Guard::kNone,    State::kStopped},
-    Row{State::kForward,  Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    Row{State::kForward,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
+    Row{State::kForward,   Event::kUnstable,  Guard::kDwelled, State::kReverse},
+    Row{State::kForward,   Event::kHazard,    Guard::kNone,    State::kPause},
+    Row{State::kForward,   Event::kOverdue,   Guard::kNone,    State::kReverse},
+    Row{State::kForward,   Event::kComplete,  Guard::kNone,    State::kTracking},
+    Row{State::kForward,   Event::kLost,      Guard::kNone,    State::kStopped},
+    Row{State::kForward,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kForward,   Event::kPreempted, Guard::kNone,    State::kStopped},
 
-    Row{State::kPause,    Event::kCalm,     Guard::kDwelled, State::kForward},
-    Row{State::kPause,    Event::kUnstable, Guard::kDwelled, State::kReverse},
-    Row{State::kPause,    Event::kOverdue,  Guard::kNone,    State::kReverse},
-    Row{State::kPause,    Event::kLost,     Guard::kNone,    State::kStopped},
-    Row{State::kPause,    Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    Row{State::kPause,     Event::kCalm,      Guard::kDwelled, State::kForward},
+    Row{State::kPause,     Event::kRewind,    Guard::kNone,    State::kReverse},
+    Row{State::kPause,     Event::kUnstable,  Guard::kDwelled, State::kReverse},
+    Row{State::kPause,     Event::kOverdue,   Guard::kNone,    State::kReverse},
+    Row{State::kPause,     Event::kLost,      Guard::kNone,    State::kStopped},
+    Row{State::kPause,     Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kPause,     Event::kPreempted, Guard::kNone,    State::kStopped},
 
-    Row{State::kReverse,  Event::kCalm,     Guard::kDwelled, State::kForward},
-    Row{State::kReverse,  Event::kUnsteady, Guard::kDwelled, State::kPause},
-    Row{State::kReverse,  Event::kHazard,   Guard::kNone,    State::kPause},
-    Row{State::kReverse,  Event::kLost,     Guard::kNone,    State::kStopped},
-    Row{State::kReverse,  Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    Row{State::kReverse,   Event::kCalm,      Guard::kDwelled, State::kForward},
+    Row{State::kReverse,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
+    Row{State::kReverse,   Event::kHazard,    Guard::kNone,    State::kPause},
+    Row{State::kReverse,   Event::kLost,      Guard::kNone,    State::kStopped},
+    Row{State::kReverse,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kReverse,   Event::kPreempted, Guard::kNone,    State::kStopped},
 
-    Row{State::kTracking, Event::kUnstable, Guard::kDwelled, State::kRetract},
-    Row{State::kTracking, Event::kHazard,   Guard::kNone,    State::kPause},
-    Row{State::kTracking, Event::kOverdue,  Guard::kNone,    State::kRetract},
-    Row{State::kTracking, Event::kHeld,     Guard::kNone,    State::kDone},
-    Row{State::kTracking, Event::kLost,     Guard::kNone,    State::kStopped},
-    Row{State::kTracking, Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    Row{State::kTracking,  Event::kUnstable,  Guard::kDwelled, State::kRetract},
+    Row{State::kTracking,  Event::kHazard,    Guard::kNone,    State::kPause},
+    Row{State::kTracking,  Event::kOverdue,   Guard::kNone,    State::kRetract},
+    Row{State::kTracking,  Event::kHeld,      Guard::kNone,    State::kDone},
+    Row{State::kTracking,  Event::kLost,      Guard::kNone,    State::kStopped},
+    Row{State::kTracking,  Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kTracking,  Event::kPreempted, Guard::kNone,    State::kStopped},
 
-    Row{State::kRetract,  Event::kCalm,     Guard::kDwelled, State::kForward},
-    Row{State::kRetract,  Event::kUnsteady, Guard::kDwelled, State::kPause},
-    Row{State::kRetract,  Event::kHazard,   Guard::kNone,    State::kPause},
-    Row{State::kRetract,  Event::kLost,     Guard::kNone,    State::kStopped},
-    Row{State::kRetract,  Event::kTimeUp,   Guard::kNone,    State::kStopped},
+    Row{State::kRetract,   Event::kCalm,      Guard::kDwelled, State::kForward},
+    Row{State::kRetract,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
+    Row{State::kRetract,   Event::kHazard,    Guard::kNone,    State::kPause},
+    Row{State::kRetract,   Event::kLost,      Guard::kNone,    State::kStopped},
+    Row{State::kRetract,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
+    Row{State::kRetract,   Event::kPreempted, Guard::kNone,    State::kStopped},
 };
 // clang-format on
 

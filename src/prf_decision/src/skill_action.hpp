@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private: the action execute_skill. A goal orders one execution from the decision; it takes effect
+// with the next tick that is processed. One goal at a time: others are rejected with the reason.
+//
+// A cancelled goal stops the execution at the next tick; the arm brakes within its limits, and the
+// goal is PREEMPTED once the arm stands, at the latest kMaxBraking of data time later.
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <prf_msgs/ExecuteSkillAction.h>
+#include <sensor_msgs/JointState.h>
+
+#include <optional>
+#include <string>
+
+#include "prf_decision/decision.hpp"
+
+namespace prf_decision {
+
+class SkillAction {
+ public:
+  // `demonstration`: the file that the planner has, empty if not known.
+  SkillAction(const ros::NodeHandle& node, Decision& decision, const std::string& demonstration);
+
+  // Once all else of the node is ready.
+  void start() { server_.start(); }
+
+  void see_joints(const sensor_msgs::JointState& joints);
+  void update(const Progress& progress);  // after every tick
+  void end_run();                         // the data's clock went back
+
+ private:
+  using Server = actionlib::ActionServer<prf_msgs::ExecuteSkillAction>;
+  using Result = prf_msgs::ExecuteSkillResult;
+
+  void on_goal(Server::GoalHandle goal);
+  void on_cancel(Server::GoalHandle goal);
+  [[nodiscard]] std::string refusal(const prf_msgs::ExecuteSkillGoal& goal) const;
+  void give_feedback(const Progress& progress);
+  void give_up(const Progress& progress);
+
+  Decision& decision_;
+  std::string demonstration_;
+  bool arm_moves_ = false;
+  std::optional<Server::GoalHandle> goal_;
+  std::optional<Stamp> stopped_;
+  std::optional<Stamp> feedback_given_;
+  State feedback_state_ = State::kWaiting;
+  Server server_;
+};
+
+}  // namespace prf_decision

@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The action execute_skill, and its command, against a scripted world."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+
+import actionlib
+import rospkg
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from prf_msgs.msg import (ExecuteSkillAction, ExecuteSkillGoal, ExecuteSkillResult,
+                          ExecutionProgress)
+
+sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
+import test_decision_node  # noqa: E402
+
+PATIENCE = 30  # s of real time, for whatever takes no time
+
+
+class SkillAction(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.world = test_decision_node.World()
+        cls.client = actionlib.ActionClient("execute_skill", ExecuteSkillAction)
+        assert cls.client.wait_for_server(rospy.Duration(PATIENCE))
+        cls.epoch = 1000000  # ms; each run begins before the one before it
+
+    def setUp(self):
+        type(self).epoch -= 100000
+        self.world.begin(self.epoch)
+        self.now = 0
+        self.play(0.1)  # a goal before the first tick would belong to the run before
+
+    def play(self, seconds):
+        until = self.now + int(1000 * seconds)
+        self.assertTrue(self.world.play(self.now, until), len(self.world.progress))
+        self.now = until
+        return self.world.progress[-1]
+
+    def begin(self, **goal):
+        """A goal that the server has seen, with what it says about it."""
+        changed = threading.Event()
+        handle = self.client.send_goal(ExecuteSkillGoal(**goal), lambda _: changed.set(),
+                                       lambda _, feedback: self.feedback.append(feedback))
+        self.feedback = []
+        self.wait(lambda: handle.get_goal_status() != GoalStatus.PENDING
+                  and handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK)
+        return handle
+
+    def wait(self, condition):
+        for _ in range(100 * PATIENCE):
+            if condition():
+                return
+            rospy.rostime.wallsleep(0.01)
+        self.fail("timed out")
+
+    def result(self, handle):
+        self.wait(lambda: handle.get_comm_state() == actionlib.CommState.DONE)
+        return handle.get_terminal_state(), handle.get_result()
+
+    def test_executes_once_for_each_goal_and_tells_how_it_goes(self):
+        progress = self.play(0.5)
+        self.assertEqual((progress.state, progress.reason),
+                         (ExecutionProgress.WAITING, "no goal yet"))
+        handle = self.begin(demonstration="inspect_box.csv", hold_time=rospy.Duration(0.5))
+        self.assertEqual(self.play(3).state, ExecutionProgress.DONE)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code), (GoalStatus.SUCCEEDED, ExecuteSkillResult.DONE))
+        self.assertEqual(result.text, "tracked for 0.50 s")
+        shares = [each.cursor for each in self.feedback]
+        self.assertEqual(shares, sorted(shares))
+        self.assertAlmostEqual(shares[-1], 1)
+        self.assertLess(self.feedback[-1].goal_distance, 1e-6)
+        self.assertLess(self.feedback[-1].axis_distance, 1e-6)
+
+        handle = self.begin()  # back to the start, and again
+        self.assertEqual(self.play(0.5).state, ExecutionProgress.REVERSE)
+        self.play(6)
+        self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
+        reached = [progress.cursor for progress in self.world.progress]
+        self.assertIn(0.0, reached[100:])
+        handle = self.begin(resume=True)
+        self.play(4)
+        self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
+        path = [s.points[0].transforms[0].translation.x for s in self.world.setpoints if s.points]
+        self.assertLess(max(abs(b - a) for a, b in zip(path, path[1:])), 0.005 + 1e-9)
+
+    def test_stops_when_preempted_and_resumes_on_demand(self):
+        handle = self.begin()
+        progress = self.play(0.7)
+        self.assertEqual(progress.state, ExecutionProgress.FORWARD)
+        handle.cancel()
+        self.wait(lambda: handle.get_goal_status() == GoalStatus.PREEMPTING)
+        self.assertEqual(self.play(0.1).state, ExecutionProgress.STOPPED)
+        self.assertFalse(self.world.setpoints[-1].points)  # hold
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code),
+                         (GoalStatus.PREEMPTED, ExecuteSkillResult.PREEMPTED))
+        handle = self.begin(resume=True)
+        before = len(self.world.progress)
+        self.play(5)
+        self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
+        self.assertGreaterEqual(min(p.cursor for p in self.world.progress[before:]),
+                                progress.cursor)
+
+    def test_gives_up_at_the_time_limit_of_the_data(self):
+        handle = self.begin(time_limit=rospy.Duration(0.5))
+        self.play(1)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code), (GoalStatus.ABORTED, ExecuteSkillResult.TIME_UP))
+        self.assertEqual(result.text, "not done within 0.50 s")
+
+    def test_rejects_what_it_cannot_do(self):
+        first = self.begin()
+        for goal, reason in ((dict(demonstration="other.csv"), "'other.csv' is not loaded"),
+                             (dict(), "an execution is under way")):
+            state, result = self.result(self.begin(**goal))
+            self.assertEqual((state, result.code),
+                             (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
+            self.assertIn(reason, result.text)
+        self.play(0.5)
+        type(self).epoch -= 100000  # another run begins: the goal of this one is over
+        self.world.begin(self.epoch)
+        self.now = 0
+        self.play(0.1)
+        self.assertEqual(self.result(first)[1].code, ExecuteSkillResult.RUN_ENDED)
+        state, result = self.result(self.begin(time_limit=rospy.Duration(-1)))
+        self.assertIn("time_limit is -1.000000, must be >= 0", result.text)
+
+    def command(self, *arguments):
+        self.wait(lambda: self.client.pub_goal.get_num_connections() == 1)
+        return subprocess.Popen(["rosrun", "prf_decision", "execute_skill", *arguments],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                start_new_session=True)
+
+    def played_until_executing(self):
+        for _ in range(600):
+            if self.play(0.05).state != ExecutionProgress.WAITING:
+                return
+            rospy.rostime.wallsleep(0.05)
+        self.fail("no goal came")
+
+    def test_command_exits_by_result(self):
+        with self.command("--hold-time", "0.5") as done:
+            self.played_until_executing()
+            self.play(3)
+            out, error = done.communicate(timeout=PATIENCE)
+            self.assertEqual(done.returncode, 0, error)
+            self.assertIn("DONE: tracked for 0.50 s", out)
+
+    def test_command_preempts_when_interrupted(self):
+        with self.command() as stopped:
+            self.played_until_executing()
+            os.killpg(stopped.pid, signal.SIGINT)
+            for _ in range(600):
+                self.play(0.05)
+                if stopped.poll() is not None:
+                    break
+                rospy.rostime.wallsleep(0.05)
+            out, error = stopped.communicate(timeout=PATIENCE)
+            self.assertEqual(stopped.returncode, 4, error)
+            self.assertIn("PREEMPTED", out)
+
+    def test_command_exits_with_2_when_refused(self):
+        with self.command("--demonstration", "other.csv") as refused:
+            refused.communicate(timeout=PATIENCE)
+            self.assertEqual(refused.returncode, 2)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_skill_action")
+    rostest.rosrun("prf_decision", "skill_action", SkillAction)
