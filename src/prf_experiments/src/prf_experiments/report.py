@@ -4,33 +4,10 @@ import html
 
 import numpy as np
 
-from prf_experiments import figures, frames, geometry, judge, recording, timeline
+from prf_experiments import figures, frames, geometry, judge, page, recording, timeline
 
 SHOWN_HORIZON = 0.5  # s, of the forecasts in the figure
-STYLE = """
-body { font: 15px/1.5 sans-serif; color: #111; background: #fff; max-width: 62em;
-       margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
-.verdict { border: 3px solid #111; padding: .6em 1em; font-size: 1.1em; }
-.verdict b { font-size: 1.6em; margin-right: .5em; }
-table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; text-align: left;
-        vertical-align: top; border-bottom: 1px solid #ccc; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-code, pre { background: #f2f2f2; padding: .1em .3em; } pre { white-space: pre-wrap; padding: .6em; }
-svg { max-width: 100%; height: auto; }
-"""
 MEANING = {"S": "success", "P": "partial success", "F": "failure", "INVALID": "no evidence"}
-
-
-def _table(rows, header=None):
-    def cell(value):
-        kind = ' class="number"' if isinstance(value, (int, float)) else ""
-        text = ("yes" if value is True else "no" if value is False else "–" if value is None
-                else f"{value:.4g}" if isinstance(value, float) else html.escape(str(value)))
-        return f"<td{kind}>{text}</td>"
-    head = "<tr>" + "".join(f"<th>{name}</th>" for name in header) + "</tr>" if header else ""
-    return ("<table>" + head + "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
-            + "</table>")
 
 
 def _matched(first, second):
@@ -86,8 +63,8 @@ def draw(bag, data, demonstrated):
     ]
 
 
-def page(content, data, drawings):
-    """HTML of a trial. `content` is what verdict.json holds."""
+def parts(content, data, drawings):
+    """Body of a trial's page. `content` is what verdict.json holds."""
     verdict = content["verdict"]
     pairs = content["figures"].get("largest_contact_by_pair_n", {})
     measures = [(name, value) for name, value in content["figures"].items()
@@ -95,32 +72,30 @@ def page(content, data, drawings):
     measures += [("wall_time_s", content.get("wall_time_s")),
                  ("simulated_per_real_time", content.get("simulated_per_real_time"))]
     inspected = " (inspected)" if content["inspected"] else ""
-    parts = [
-        "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\">",
-        f"<title>Trial {html.escape(verdict)}</title><style>{STYLE}</style></head><body>",
-        "<h1>Trial</h1>",
+    body = [
         f"<p class=\"verdict\"><b>{verdict}</b> {MEANING[verdict]}{inspected}: "
         f"{html.escape(content['reason'])}</p>",
         f"<pre>{html.escape(content.get('command', ''))}</pre>",
     ]
     for title, text, drawing in drawings:
-        parts += [f"<h2>{title}</h2><p>{text}</p>", drawing]
+        body += [f"<h2>{title}</h2><p>{text}</p>", drawing]
     if data is not None:
         told = timeline.text(data, judge.Verdict(verdict, content["inspected"], content["reason"],
                                                  content["figures"]))
-        parts += ["<h2>Timeline</h2>", f"<pre class=\"timeline\">{html.escape(told)}</pre>"]
-    parts += ["<h2>Figures of merit</h2>", _table(measures)]
+        body += ["<h2>Timeline</h2>", f"<pre class=\"wide\">{html.escape(told)}</pre>"]
+    body += ["<h2>Figures of merit</h2>", page.table(measures)]
     if pairs:
-        parts += ["<h2>Contacts of the arm</h2>",
-                  _table(sorted(pairs.items()), ("links", "largest force, N"))]
-    parts += ["<h2>Arguments and versions</h2>",
-              _table([*content.get("arguments", {}).items(), *content.get("versions", {}).items()]),
-              "</body></html>\n"]
-    return "\n".join(parts)
+        body += ["<h2>Contacts of the arm</h2>",
+                 page.table(sorted(pairs.items()), ("links", "largest force, N"))]
+    body += ["<h2>Arguments and versions</h2>",
+             page.table([*content.get("arguments", {}).items(),
+                         *content.get("versions", {}).items()])]
+    return body
 
 
 def write(path, bag, data, content, demonstrated):
     """Writes the report of a trial; `data` is None when the recording could not be read."""
     drawn = data is not None and content["verdict"] != "INVALID"
     with open(path, "w", encoding="utf-8") as stream:
-        stream.write(page(content, data, draw(bag, data, demonstrated) if drawn else []))
+        drawings = draw(bag, data, demonstrated) if drawn else []
+        stream.write(page.whole("Trial " + content["verdict"], parts(content, data, drawings)))

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Statistics of trials: intervals of rates, and comparisons paired by seed."""
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.stats
+
+Z_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
+
+
+def wilson(successes, trials, z=Z_95):
+    """(low, high) of a rate: Wilson's score interval; (0, 1) when there was no trial.
+
+    E. B. Wilson, J. Am. Stat. Assoc. 22 (1927): the rates p with |p^ - p| <= z sqrt(p(1-p)/n).
+    """
+    if not 0 <= successes <= trials:
+        raise ValueError(f"successes = {successes}, must be in 0..{trials}")
+    if trials == 0:
+        return 0.0, 1.0
+    rate, share = successes / trials, z * z / trials
+    centre = (rate + share / 2) / (1 + share)
+    half = z * math.sqrt(rate * (1 - rate) / trials + share / (4 * trials)) / (1 + share)
+    return (0.0 if successes == 0 else centre - half,
+            1.0 if successes == trials else centre + half)  # exact where rounding is not
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Mean and standard deviation (n - 1) of n numbers; None where they are not defined."""
+
+    count: int
+    mean: float = None
+    deviation: float = None
+
+
+def spread(values):
+    values = np.array([value for value in values if value is not None], dtype=float)
+    return Spread(len(values), float(values.mean()) if len(values) else None,
+                  float(values.std(ddof=1)) if len(values) > 1 else None)
+
+
+@dataclass(frozen=True)
+class Paired:
+    """first - second over the pairs that have both; p-values are two-sided, None below 2 pairs."""
+
+    count: int
+    difference: Spread
+    t_p: float = None
+    wilcoxon_p: float = None
+
+
+def paired(first, second):
+    """Paired t-test and Wilcoxon's signed-rank test of two series; None marks a missing number."""
+    if len(first) != len(second):
+        raise ValueError(f"{len(first)} and {len(second)} numbers, must be pairs")
+    pairs = np.array([pair for pair in zip(first, second) if None not in pair], dtype=float)
+    if len(pairs) < 2:
+        return Paired(len(pairs), spread(pairs[:, 0] - pairs[:, 1] if len(pairs) else []))
+    differences = pairs[:, 0] - pairs[:, 1]
+    if not np.any(differences):
+        return Paired(len(pairs), spread(differences), 1.0, 1.0)
+    if np.ptp(differences) == 0.0:  # the t statistic is infinite
+        t_p = 0.0
+    else:
+        t_p = float(scipy.stats.ttest_rel(pairs[:, 0], pairs[:, 1]).pvalue)
+    return Paired(len(pairs), spread(differences), t_p,
+                  float(scipy.stats.wilcoxon(differences).pvalue))
