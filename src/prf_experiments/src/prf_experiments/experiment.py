@@ -35,6 +35,13 @@ def plain_name(text):
     return text
 
 
+def address(text):
+    protocol, separator, place = text.partition("://")
+    if not (protocol and separator and place):
+        raise argparse.ArgumentTypeError(f"'{text}' is not an address as tcp://host:8786")
+    return text
+
+
 def parser():
     result = argparse.ArgumentParser(
         prog="run_experiment", formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -53,7 +60,7 @@ def parser():
                            help="trials side by side on this machine [%(default)s]")
         sweep.add_argument("--keep-bags", choices=("failed", "all", "none"), default="failed",
                            help="failed: of every trial that is not S [%(default)s]")
-        sweep.add_argument("--scheduler", metavar="ADDRESS",
+        sweep.add_argument("--scheduler", type=address, metavar="ADDRESS",
                            help="sends the trials to a Dask cluster, as tcp://host:8786")
         sweep.add_argument("--name", type=plain_name, default=name, metavar="NAME",
                            help="folder in the results folder; the same name resumes [%(default)s]")

@@ -19,6 +19,7 @@ from prf_experiments.session import Interrupted, SessionError
 
 BAR = 24  # characters
 MEGABYTE = 1e6
+CONNECT_TIMEOUT = 20.0  # s
 
 
 @dataclass(frozen=True)
@@ -136,8 +137,9 @@ def executor(options):
         return
     import distributed  # half a second, and only needed here
     try:
-        client = distributed.Client(options.scheduler, timeout=20, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+        client = distributed.Client(options.scheduler, timeout=CONNECT_TIMEOUT,
+                                    set_as_default=False)
+    except (OSError, ValueError, distributed.TimeoutError) as error:
         raise SessionError(f"no Dask scheduler answers at {options.scheduler}: {error}") from None
     with client:
         yield client.get_executor(pure=False)

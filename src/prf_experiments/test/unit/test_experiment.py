@@ -26,6 +26,7 @@ class Arguments(unittest.TestCase):
                            (["table", "--seeds", "2", "seed:=3"], "say the same"),
                            (["compare", "--name", "a/b"], "plain name"),
                            (["table", "results:=a,b"], "one folder"),
+                           (["table", "--scheduler", "host"], "not an address"),
                            (["table", "--keep-bags", "some"], "invalid choice"),
                            (["table", "keep_bag:=true"], "unknown argument"),
                            (["seed:=1,2"], "invalid seed"), (["--seeds", "2"], "invalid choice")):
