@@ -46,15 +46,15 @@ void assign(Message& message, const Eigen::Vector3d& vector) {
 inline prf_msgs::TargetPrediction to_message(const Prediction& prediction) {
   prf_msgs::TargetPrediction message;
   message.horizon.fromSec(prediction.horizon);
-  assign(message.pose.position, prediction.position);
+  assign(message.pose.position, prediction.point.position);
   message.pose.orientation.x = prediction.orientation.x();
   message.pose.orientation.y = prediction.orientation.y();
   message.pose.orientation.z = prediction.orientation.z();
   message.pose.orientation.w = prediction.orientation.w();
-  assign(message.twist.linear, prediction.velocity);
+  assign(message.twist.linear, prediction.point.velocity);
   assign(message.twist.angular, prediction.rate);
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data()) =
-      prediction.covariance;
+      prediction.point.covariance;
   return message;
 }
 

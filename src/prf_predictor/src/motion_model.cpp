@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "require.hpp"
 
@@ -36,10 +37,11 @@ double VelocityDecay::prior_variance() const {
   return std::min(1.0, 0.5 * spectral_density * time_constant);
 }
 
-void validate(const VelocityDecay& decay, const std::string& density) {
+void validate(const VelocityDecay& decay, const std::string& density,
+              const std::string& time_constant) {
   require(decay.spectral_density > 0 && std::isfinite(decay.spectral_density), density,
           decay.spectral_density, "finite and > 0");
-  require(decay.time_constant > 0, "velocity_time_constant", decay.time_constant, "> 0 s");
+  require(decay.time_constant > 0, time_constant, decay.time_constant, "> 0 s");
 }
 
 DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) {
@@ -57,8 +59,135 @@ Eigen::MatrixXd DecayingVelocity::process_noise(double dt) const {
   return for_three_axes(decay_.noise(dt));
 }
 
-Eigen::MatrixXd DecayingVelocity::prior_covariance() const {
-  return decay_.prior_variance() * Eigen::Matrix3d::Identity();
+Eigen::MatrixXd DecayingVelocity::jacobian(const Eigen::VectorXd& /*state*/, double dt) const {
+  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(6, 6);
+  F.topRightCorner<3, 3>().diagonal().setConstant(decay_.travel(dt));
+  F.bottomRightCorner<3, 3>().diagonal().setConstant(decay_.velocity_factor(dt));
+  return F;
+}
+
+Gaussian DecayingVelocity::initial_belief(const Eigen::Vector3d& position,
+                                          const Eigen::Matrix3d& covariance) const {
+  Gaussian belief{Eigen::VectorXd::Zero(6), Eigen::MatrixXd::Zero(6, 6)};
+  belief.mean.head<3>() = position;
+  belief.covariance.topLeftCorner<3, 3>() = covariance;
+  belief.covariance.diagonal().tail<3>().setConstant(decay_.prior_variance());
+  return belief;
+}
+
+ConstantAcceleration::ConstantAcceleration(double jerk_density) : jerk_density_(jerk_density) {
+  require(jerk_density > 0 && std::isfinite(jerk_density), "jerk_density", jerk_density,
+          "finite and > 0");
+}
+
+Eigen::VectorXd ConstantAcceleration::advance(const Eigen::VectorXd& state, double dt) const {
+  return jacobian(state, dt) * state;
+}
+
+Eigen::MatrixXd ConstantAcceleration::jacobian(const Eigen::VectorXd& /*state*/, double dt) const {
+  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(9, 9);
+  F.diagonal<3>().setConstant(dt);
+  F.diagonal<6>().setConstant(0.5 * dt * dt);
+  return F;
+}
+
+Eigen::MatrixXd ConstantAcceleration::process_noise(double dt) const {
+  Eigen::Matrix3d q;  // of one axis: the integral of g g^T over g = (t^2 / 2, t, 1)
+  q << std::pow(dt, 5) / 20, std::pow(dt, 4) / 8, std::pow(dt, 3) / 6,  //
+      std::pow(dt, 4) / 8, std::pow(dt, 3) / 3, dt * dt / 2,            //
+      std::pow(dt, 3) / 6, dt * dt / 2, dt;
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(9, 9);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      Q.block<3, 3>(3 * row, 3 * column).diagonal().setConstant(jerk_density_ * q(row, column));
+    }
+  }
+  return Q;
+}
+
+Gaussian ConstantAcceleration::initial_belief(const Eigen::Vector3d& position,
+                                              const Eigen::Matrix3d& covariance) const {
+  Gaussian belief{Eigen::VectorXd::Zero(9), Eigen::MatrixXd::Identity(9, 9)};
+  belief.mean.head<3>() = position;
+  belief.covariance.topLeftCorner<3, 3>() = covariance;
+  return belief;
+}
+
+Oscillation::Oscillation(const OscillationNoise& noise) : noise_(noise) {
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  require(positive(noise.acceleration_density), "acceleration_density", noise.acceleration_density,
+          "finite and > 0");
+  require(positive(noise.centre_density), "centre_density", noise.centre_density, "finite and > 0");
+  require(positive(noise.frequency_density), "frequency_density", noise.frequency_density,
+          "finite and > 0");
+}
+
+namespace {
+
+double frequency_of(double logarithm) {
+  constexpr double kFastest = 3.0;  // ln(20 rad/s): sigma points far off must stay finite
+  return std::exp(std::clamp(logarithm, -kFastest, kFastest));
+}
+
+}  // namespace
+
+Eigen::VectorXd Oscillation::advance(const Eigen::VectorXd& state, double dt) const {
+  const double W = frequency_of(state(9));
+  const double cosine = std::cos(W * dt);
+  const double sine = std::sin(W * dt);
+  const Eigen::Vector3d swing = state.head<3>() - state.segment<3>(6);
+  Eigen::VectorXd next = state;
+  next.head<3>() = state.segment<3>(6) + cosine * swing + sine / W * state.segment<3>(3);
+  next.segment<3>(3) = -W * sine * swing + cosine * state.segment<3>(3);
+  return next;
+}
+
+Eigen::MatrixXd Oscillation::jacobian(const Eigen::VectorXd& state, double dt) const {
+  const double W = frequency_of(state(9));
+  const double turn = W * dt;
+  const double cosine = std::cos(turn);
+  const double sine = std::sin(turn);
+  const Eigen::Vector3d swing = state.head<3>() - state.segment<3>(6);
+  const Eigen::Vector3d velocity = state.segment<3>(3);
+  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(10, 10);
+  for (int axis = 0; axis < 3; ++axis) {
+    F.row(axis).setZero();
+    F(axis, axis) = cosine;
+    F(axis, 3 + axis) = sine / W;
+    F(axis, 6 + axis) = 1 - cosine;
+    F(axis, 9) = -sine * turn * swing(axis) + (cosine * turn - sine) / W * velocity(axis);
+    F(3 + axis, axis) = -W * sine;
+    F(3 + axis, 3 + axis) = cosine;
+    F(3 + axis, 6 + axis) = W * sine;
+    F(3 + axis, 9) = -W * (sine + cosine * turn) * swing(axis) - sine * turn * velocity(axis);
+  }
+  return F;
+}
+
+Eigen::MatrixXd Oscillation::process_noise(double dt) const {
+  const VelocityDecay pushed{noise_.acceleration_density, std::numeric_limits<double>::infinity()};
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(10, 10);
+  Q.topLeftCorner<6, 6>() = for_three_axes(pushed.noise(dt));
+  Q.diagonal().segment<3>(6).setConstant(noise_.centre_density * dt);
+  Q(9, 9) = noise_.frequency_density * dt;
+  return Q;
+}
+
+Gaussian Oscillation::initial_belief(const Eigen::Vector3d& position,
+                                     const Eigen::Matrix3d& covariance) const {
+  constexpr double kSpeed = 0.2;         // m/s
+  constexpr double kSwing = 0.05;        // m
+  constexpr double kLogFrequency = 0.7;  // ln(2 rad/s)
+  constexpr double kLogFrequencySigma = 0.4;
+  Gaussian belief{Eigen::VectorXd::Zero(10), Eigen::MatrixXd::Zero(10, 10)};
+  belief.mean.head<3>() = position;
+  belief.mean.segment<3>(6) = position;
+  belief.mean(9) = kLogFrequency;
+  belief.covariance.topLeftCorner<3, 3>() = covariance;
+  belief.covariance.diagonal().segment<3>(3).setConstant(kSpeed * kSpeed);
+  belief.covariance.diagonal().segment<3>(6).setConstant(kSwing * kSwing);
+  belief.covariance(9, 9) = kLogFrequencySigma * kLogFrequencySigma;
+  return belief;
 }
 
 Eigen::Matrix<double, 6, 6> for_three_axes(const Eigen::Matrix2d& noise) {

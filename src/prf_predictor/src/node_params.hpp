@@ -4,11 +4,13 @@
 
 #include <prf_parameters/private_parameters.hpp>
 
-#include <cmath>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "prf_predictor/predictors.hpp"
 #include "prf_predictor/target_tracker.hpp"
 #include "require.hpp"
 
@@ -19,15 +21,10 @@ struct NodeParams {
   int tag_id = 0;
   std::vector<double> horizons;
   double tf_wait = 0.0;
-  VelocityDecay motion;
+  std::shared_ptr<const TargetPredictor> predictor;
   MeasurementDefaults defaults;
   TrackerParams tracker;
 };
-
-inline SigmaPointParams to_sigma_points(const std::string& name) {
-  require(name == "textbook" || name == "paper", "sigma_points", name, "textbook or paper");
-  return name == "paper" ? SigmaPointParams::paper() : SigmaPointParams::textbook();
-}
 
 inline void validate(const NodeParams& params) {
   require(!params.planning_frame.empty(), "planning_frame", "\"\"", "a frame's name");
@@ -40,9 +37,17 @@ inline void validate(const NodeParams& params) {
             params.horizons[i], "strictly rising and <= 60 s");
   }
   require(params.tf_wait >= 0 && params.tf_wait <= 10, "tf_wait", params.tf_wait, "0 .. 10 s");
-  validate(params.motion, "acceleration_density");
   validate(params.defaults);
   validate(params.tracker);
+}
+
+// The predictor by its name, with the parameters that it has.
+inline std::unique_ptr<TargetPredictor> load_predictor(
+    prf_parameters::PrivateParameters& parameters) {
+  const std::string name = parameters.text("predictor");
+  std::map<std::string, double> values;
+  for (const std::string& key : predictor_parameters(name)) values[key] = parameters.number(key);
+  return make_predictor(name, values);
 }
 
 inline NodeParams load(const ros::NodeHandle& private_node) {
@@ -52,11 +57,10 @@ inline NodeParams load(const ros::NodeHandle& private_node) {
   params.tag_id = parameters.integer("tag_id");
   params.horizons = parameters.numbers("horizons");
   params.tf_wait = parameters.number("tf_wait");
-  const double time_constant = parameters.number("velocity_time_constant");
-  params.motion = {parameters.number("acceleration_density"), time_constant};
+  params.predictor = load_predictor(parameters);
   params.defaults = {parameters.number("position_sigma"), parameters.number("orientation_sigma")};
-  params.tracker.sigma_points = to_sigma_points(parameters.text("sigma_points"));
-  params.tracker.rotation = {parameters.number("angular_acceleration_density"), time_constant};
+  params.tracker.rotation = {parameters.number("angular_acceleration_density"),
+                             parameters.number("angular_velocity_time_constant")};
   params.tracker.gate_probability = parameters.number("gate_probability");
   params.tracker.reacquire_hits = parameters.integer("reacquire_hits");
   params.tracker.coast_after = parameters.number("coast_after");

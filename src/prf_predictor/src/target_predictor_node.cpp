@@ -24,7 +24,7 @@ class TargetPredictorNode {
   TargetPredictorNode(ros::NodeHandle node, const NodeParams& params)
       : params_(params),
         transforms_(params.planning_frame, ros::Duration(params.tf_wait)),
-        tracker_(params.tracker, std::make_shared<DecayingVelocity>(params.motion)) {
+        tracker_(params.tracker, params.predictor) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     updater_.setHardwareID("none");
     updater_.add("target", this, &TargetPredictorNode::diagnose);

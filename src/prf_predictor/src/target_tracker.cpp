@@ -14,31 +14,41 @@ namespace {
 double seconds(Nanoseconds duration) { return 1e-9 * static_cast<double>(duration); }
 
 bool is_finite(const Belief& belief) {
-  return is_finite(belief.motion) && belief.orientation.orientation.coeffs().allFinite() &&
+  return is_finite(belief.motion->forecast(0)) &&
+         belief.orientation.orientation.coeffs().allFinite() &&
          belief.orientation.rate.allFinite() && belief.orientation.covariance.allFinite();
 }
 
 struct Nearest {
   const TagMeasurement* sight = nullptr;
-  Innovation innovation;
+  double nis = std::numeric_limits<double>::infinity();
 };
 
-Nearest nearest_to(const Gaussian& belief, const std::vector<TagMeasurement>& sights,
-                   const SigmaPointParams& params) {
+// By the Mahalanobis distance to where the target is expected now.
+Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasurement>& sights) {
+  const PointForecast expected = target.forecast(0);
   Nearest nearest;
-  nearest.innovation.nis = std::numeric_limits<double>::infinity();
   for (const TagMeasurement& sight : sights) {
-    Innovation innovation = innovate(belief, sight.position, sight.position_covariance, params);
-    if (innovation.nis < nearest.innovation.nis) nearest = {&sight, std::move(innovation)};
+    const Eigen::Vector3d residual = sight.position - expected.position;
+    const Eigen::Matrix3d S =
+        repaired(expected.covariance.topLeftCorner<3, 3>() + sight.position_covariance);
+    const double nis = residual.dot(S.llt().solve(residual));
+    if (nis < nearest.nis) nearest = {&sight, nis};
   }
   return nearest;
+}
+
+std::shared_ptr<const TargetPredictor> corrected(const TargetPredictor& target,
+                                                 const TagMeasurement& sight) {
+  std::shared_ptr<TargetPredictor> next = target.clone();
+  next->correct(sight.position, sight.position_covariance);
+  return next;
 }
 
 }  // namespace
 
 void validate(const TrackerParams& params) {
-  validate(params.sigma_points);
-  validate(params.rotation, "angular_acceleration_density");
+  validate(params.rotation, "angular_acceleration_density", "angular_velocity_time_constant");
   require(params.gate_probability > 0.5 && params.gate_probability < 1, "gate_probability",
           params.gate_probability, "> 0.5 and < 1");
   require(params.reacquire_hits >= 2, "reacquire_hits", params.reacquire_hits, ">= 2");
@@ -48,10 +58,11 @@ void validate(const TrackerParams& params) {
           params.lost_after, "> coast_after and <= 3600 s");
 }
 
-TargetTracker::TargetTracker(const TrackerParams& params, std::shared_ptr<const MotionModel> model)
-    : params_(params), model_(std::move(model)) {
+TargetTracker::TargetTracker(const TrackerParams& params,
+                             std::shared_ptr<const TargetPredictor> predictor)
+    : params_(params), predictor_(std::move(predictor)) {
   validate(params);
-  require(model_ != nullptr, "model", "null", "given");
+  require(predictor_ != nullptr, "predictor", "null", "given");
   gate_ = chi_square_quantile_3(params.gate_probability);
 }
 
@@ -122,21 +133,24 @@ TrackState TargetTracker::step(const TrackState& before, Nanoseconds stamp,
 }
 
 Belief TargetTracker::begin(const TagMeasurement& sight) const {
-  return {initial_belief(*model_, sight.position, sight.position_covariance),
+  std::shared_ptr<TargetPredictor> motion = predictor_->clone();
+  motion->begin(sight.position, sight.position_covariance);
+  return {motion,
           initial_orientation(params_.rotation, sight.orientation, sight.orientation_covariance)};
 }
 
 Belief TargetTracker::advanced(const Belief& belief, double dt) const {
-  return {predict(belief.motion, *model_, dt, params_.sigma_points),
-          predict(belief.orientation, params_.rotation, dt)};
+  std::shared_ptr<TargetPredictor> motion = belief.motion->clone();
+  motion->advance(dt);
+  return {motion, predict(belief.orientation, params_.rotation, dt)};
 }
 
 bool TargetTracker::accept(TrackState& state, const std::vector<TagMeasurement>& sights) const {
-  const Nearest nearest = nearest_to(state.belief->motion, sights, params_.sigma_points);
+  const Nearest nearest = nearest_to(*state.belief->motion, sights);
   if (nearest.sight == nullptr) return false;
-  state.nis = nearest.innovation.nis;
+  state.nis = nearest.nis;
   if (!(state.nis <= gate_)) return false;
-  state.belief->motion = correct(state.belief->motion, nearest.innovation);
+  state.belief->motion = corrected(*state.belief->motion, *nearest.sight);
   state.orientation_gated = !correct_orientation(*state.belief, *nearest.sight);
   state.last_accepted = state.stamp;
   state.measured = true;
@@ -149,9 +163,9 @@ void TargetTracker::pursue_candidate(TrackState& state,
   if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
   if (candidate) {
     candidate->belief = advanced(candidate->belief, seconds(state.stamp - candidate->stamp));
-    const Nearest nearest = nearest_to(candidate->belief.motion, sights, params_.sigma_points);
-    if (nearest.sight != nullptr && nearest.innovation.nis <= gate_) {
-      candidate->belief.motion = correct(candidate->belief.motion, nearest.innovation);
+    const Nearest nearest = nearest_to(*candidate->belief.motion, sights);
+    if (nearest.sight != nullptr && nearest.nis <= gate_) {
+      candidate->belief.motion = corrected(*candidate->belief.motion, *nearest.sight);
       (void)correct_orientation(candidate->belief, *nearest.sight);
       candidate->stamp = state.stamp;
       ++candidate->hits;
@@ -194,10 +208,9 @@ std::vector<Prediction> TargetTracker::forecast(const TrackState& state,
   std::vector<Prediction> predictions;
   if (!state.belief) return predictions;
   for (const double horizon : horizons) {
-    const Belief ahead = advanced(*state.belief, horizon);
-    predictions.push_back({horizon, ahead.motion.mean.head<3>(), ahead.orientation.orientation,
-                           ahead.motion.mean.segment<3>(3), ahead.orientation.rate,
-                           ahead.motion.covariance.topLeftCorner<6, 6>()});
+    const OrientationBelief ahead = predict(state.belief->orientation, params_.rotation, horizon);
+    predictions.push_back(
+        {horizon, state.belief->motion->forecast(horizon), ahead.orientation, ahead.rate});
   }
   return predictions;
 }

@@ -5,16 +5,6 @@
 
 namespace prf_predictor {
 
-Gaussian initial_belief(const MotionModel& model, const Eigen::Vector3d& position,
-                        const Eigen::Matrix3d& covariance) {
-  const Eigen::Index n = model.dimension();
-  Gaussian belief{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-  belief.mean.head<3>() = position;
-  belief.covariance.topLeftCorner<3, 3>() = covariance;
-  belief.covariance.bottomRightCorner(n - 3, n - 3) = model.prior_covariance();
-  return belief;
-}
-
 Gaussian predict(const Gaussian& belief, const MotionModel& model, double dt,
                  const SigmaPointParams& params) {
   Gaussian predicted = unscented_transform(belief, params, [&](const Eigen::VectorXd& state) {
@@ -29,11 +19,16 @@ Innovation innovate(const Gaussian& belief, const Eigen::Vector3d& position,
   const Transformed expected = unscented_transform(
       belief, params,
       [](const Eigen::VectorXd& state) -> Eigen::VectorXd { return state.head<3>(); });
+  return innovation_of(expected.result, expected.cross_covariance, position, covariance);
+}
+
+Innovation innovation_of(const Gaussian& expected, const Eigen::MatrixXd& cross_covariance,
+                         const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
   Innovation innovation;
-  innovation.residual = position - expected.result.mean;
-  innovation.covariance = repaired(expected.result.covariance + covariance);
+  innovation.residual = position - expected.mean;
+  innovation.covariance = repaired(expected.covariance + covariance);
   const Eigen::LLT<Eigen::MatrixXd> factor(innovation.covariance);
-  innovation.gain = factor.solve(expected.cross_covariance.transpose()).transpose();
+  innovation.gain = factor.solve(cross_covariance.transpose()).transpose();
   innovation.nis = innovation.residual.dot(factor.solve(innovation.residual));
   return innovation;
 }

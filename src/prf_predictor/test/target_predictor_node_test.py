@@ -217,17 +217,20 @@ class TargetPredictorParameters(unittest.TestCase):
         ("planning_frame", ""), ("planning_frame", 1), ("tag_id", -1), ("tag_id", 0.5),
         ("horizons", []), ("horizons", [0.1, 0.2]), ("horizons", [0.0, 0.2, 0.2]),
         ("horizons", [0.0, float("nan")]), ("horizons", "soon"), ("tf_wait", -1.0),
-        ("sigma_points", "magic"), ("acceleration_density", 0.0),
+        ("predictor", "magic"), ("predictor", 1), ("acceleration_density", 0.0),
         ("acceleration_density", float("nan")), ("angular_acceleration_density", -1.0),
-        ("velocity_time_constant", 0.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
+        ("velocity_time_constant", 0.0), ("angular_velocity_time_constant", 0.0),
+        ("jerk_density", 1.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
         ("gate_probability", 1.0), ("gate_probability", 0.1), ("reacquire_hits", 1),
         ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
     ]
 
     def test_bad_values_end_the_node_with_code_2_and_their_name(self):
-        path = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "target_predictor.yaml")
-        with open(path, encoding="utf-8") as file:
-            good = yaml.safe_load(file)
+        folder = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config")
+        good = {}
+        for name in ("target_predictor.yaml", os.path.join("predictors", "ukf.yaml")):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                good.update(yaml.safe_load(file))
         executable = roslib.packages.find_node(PACKAGE, "target_predictor_node")[0]
         for name, value in self.CATALOGUE:
             with self.subTest(name=name, value=value):

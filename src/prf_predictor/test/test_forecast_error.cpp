@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "prf_predictor/kalman_predictor.hpp"
 #include "prf_predictor/target_tracker.hpp"
 
 namespace prf_predictor {
@@ -41,12 +42,14 @@ struct ForecastError {
 };
 
 ForecastError measure(const VelocityDecay& motion, const std::vector<Sway>& sways) {
-  TrackerParams params{SigmaPointParams::textbook(), {0.03, 0.6}, 0.9999, 5, 0.15, 2.0};
+  TrackerParams params{{0.03, 0.6}, 0.9999, 5, 0.15, 2.0};
   ForecastError error{std::vector<double>(kHorizons.size()), std::vector<double>(kHorizons.size()),
                       0};
   int count = 0;
   for (const Sway& sway : sways) {
-    TargetTracker tracker(params, std::make_shared<DecayingVelocity>(motion));
+    TargetTracker tracker(
+        params, std::make_shared<KalmanPredictor>(std::make_shared<DecayingVelocity>(motion),
+                                                  SigmaPointParams::textbook()));
     std::mt19937 random(3);
     std::normal_distribution<double> normal(0, sway.noise);
     for (int frame = 0; frame < 900; ++frame) {
@@ -63,8 +66,9 @@ ForecastError measure(const VelocityDecay& motion, const std::vector<Sway>& sway
       error.mean_nis += state.nis;
       const auto forecast = tracker.forecast(state, kHorizons);
       for (std::size_t i = 0; i < kHorizons.size(); ++i) {
-        error.rms[i] += (forecast[i].position - position_at(t + kHorizons[i], sway)).squaredNorm();
-        error.sigma[i] += forecast[i].covariance.topLeftCorner<3, 3>().trace();
+        error.rms[i] +=
+            (forecast[i].point.position - position_at(t + kHorizons[i], sway)).squaredNorm();
+        error.sigma[i] += forecast[i].point.covariance.topLeftCorner<3, 3>().trace();
       }
     }
   }

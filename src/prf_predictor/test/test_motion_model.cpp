@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 namespace prf_predictor {
 namespace {
@@ -52,10 +54,53 @@ TEST(DecayingVelocity, KeepsVelocityWhenItsTimeConstantIsInfinite) {
   EXPECT_EQ(next.head<3>(), state.head<3>() + 2.0 * state.tail<3>());
 }
 
+std::vector<std::shared_ptr<const MotionModel>> all_models() {
+  return {std::make_shared<DecayingVelocity>(VelocityDecay{0.3, 0.6}),
+          std::make_shared<ConstantAcceleration>(2.0),
+          std::make_shared<Oscillation>(OscillationNoise{0.3, 1e-4, 1e-2})};
+}
+
+Eigen::VectorXd state_of(const MotionModel& model) {
+  const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(model.dimension(), -0.4, 0.9);
+  return state;
+}
+
+TEST(MotionModel, JacobianIsTheDerivativeOfAdvance) {
+  for (const auto& model : all_models()) {
+    const Eigen::VectorXd state = state_of(*model);
+    const Eigen::MatrixXd F = model->jacobian(state, 0.7);
+    for (Eigen::Index i = 0; i < state.size(); ++i) {
+      const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::Unit(state.size(), i);
+      const Eigen::VectorXd difference =
+          (model->advance(state + step, 0.7) - model->advance(state - step, 0.7)) / 2e-6;
+      EXPECT_LT((F.col(i) - difference).norm(), 1e-8) << state.size() << " " << i;
+    }
+  }
+}
+
+TEST(MotionModel, AdvancesTwiceAsFarInTwoSteps) {
+  for (const auto& model : all_models()) {
+    const Eigen::VectorXd state = state_of(*model);
+    const Eigen::VectorXd twice = model->advance(model->advance(state, 0.3), 0.3);
+    EXPECT_LT((twice - model->advance(state, 0.6)).norm(), 1e-13) << state.size();
+  }
+}
+
+TEST(ConstantAcceleration, NoiseComposesOverTime) {
+  const ConstantAcceleration model(2.0);
+  const Eigen::MatrixXd F = model.jacobian(Eigen::VectorXd(9), 0.2);
+  const Eigen::MatrixXd Q = model.process_noise(0.2);
+  EXPECT_LT((model.process_noise(0.4) - (F * Q * F.transpose() + Q)).norm(), 1e-15);
+}
+
 TEST(DecayingVelocity, RefusesParametersOutOfBounds) {
   for (const VelocityDecay& bad :
        {VelocityDecay{0, 1}, {-1, 1}, {NAN, 1}, {kInfinity, 1}, {1, 0}, {1, -1}, {1, NAN}}) {
     EXPECT_THROW(DecayingVelocity{bad}, std::invalid_argument);
+  }
+  EXPECT_THROW(ConstantAcceleration{0.0}, std::invalid_argument);
+  for (const OscillationNoise& bad : {OscillationNoise{0, 1, 1}, {1, NAN, 1}, {1, 1, -1}}) {
+    EXPECT_THROW(Oscillation{bad}, std::invalid_argument);
   }
 }
 

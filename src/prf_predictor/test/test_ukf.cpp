@@ -58,7 +58,7 @@ TEST_P(UkfOnLinearModel, EqualsTheKalmanFilter) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> step(0.005, 0.2);
   const Eigen::Matrix3d R0 = random_covariance(random);
-  Gaussian belief = initial_belief(model, {0.8, -0.1, 0.4}, R0);
+  Gaussian belief = model.initial_belief({0.8, -0.1, 0.4}, R0);
   LinearKalmanFilter reference{belief.mean, belief.covariance};
   for (int i = 0; i < 300; ++i) {
     const double dt = step(random);
@@ -84,7 +84,7 @@ TEST(Ukf, CovarianceStaysPositiveDefiniteThroughDropoutsAndExtremes) {
   for (int run = 0; run < 40; ++run) {
     const DecayingVelocity model({std::pow(10.0, -4 + 6 * uniform(random)), 0.6});
     const auto params = run % 2 == 0 ? SigmaPointParams::paper() : SigmaPointParams::textbook();
-    Gaussian belief = initial_belief(model, {1, 0, 0}, random_covariance(random));
+    Gaussian belief = model.initial_belief({1, 0, 0}, random_covariance(random));
     for (int i = 0; i < 200; ++i) {
       belief = predict(belief, model, std::pow(10.0, -4 + 5 * uniform(random)), params);
       if (uniform(random) < 0.6) {
@@ -111,7 +111,7 @@ TEST(Ukf, NisIsConsistentOnDataDrawnFromTheModel) {
   std::mt19937 random(8);
   Eigen::VectorXd truth = Eigen::VectorXd::Zero(6);
   truth.tail<3>() = std::sqrt(decay.prior_variance()) * normal_vector(random, 1.0);
-  Gaussian belief = initial_belief(model, R_root * normal_vector(random, 1.0), R);
+  Gaussian belief = model.initial_belief(R_root * normal_vector(random, 1.0), R);
   double sum = 0;
   constexpr int kSteps = 1000;
   for (int i = 0; i < kSteps; ++i) {

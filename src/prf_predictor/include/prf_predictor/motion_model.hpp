@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "prf_predictor/gaussian.hpp"
+
 namespace prf_predictor {
 
 class MotionModel {
@@ -17,8 +19,11 @@ class MotionModel {
   [[nodiscard]] virtual Eigen::Index dimension() const = 0;
   [[nodiscard]] virtual Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd process_noise(double dt) const = 0;
-  // Covariance of what one position does not tell: all of the state but its position.
-  [[nodiscard]] virtual Eigen::MatrixXd prior_covariance() const = 0;
+  // Of advance, by the state.
+  [[nodiscard]] virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const = 0;
+  // Position known by a measurement, the rest by the model's prior.
+  [[nodiscard]] virtual Gaussian initial_belief(const Eigen::Vector3d& position,
+                                                const Eigen::Matrix3d& covariance) const = 0;
 };
 
 // White-noise acceleration w of spectral density q on a velocity that decays with the time
@@ -37,8 +42,9 @@ struct VelocityDecay {
   [[nodiscard]] double prior_variance() const;
 };
 
-// Throws std::invalid_argument naming the value and its bound; `density` is the density's name.
-void validate(const VelocityDecay& decay, const std::string& density);
+// Throws std::invalid_argument naming the value and its bound, by the names given.
+void validate(const VelocityDecay& decay, const std::string& density,
+              const std::string& time_constant = "velocity_time_constant");
 
 class DecayingVelocity : public MotionModel {
  public:
@@ -47,10 +53,52 @@ class DecayingVelocity : public MotionModel {
   [[nodiscard]] Eigen::Index dimension() const override { return 6; }
   [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
   [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd prior_covariance() const override;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
+                                        const Eigen::Matrix3d& covariance) const override;
 
  private:
   VelocityDecay decay_;
+};
+
+// White-noise jerk of the spectral density q on the acceleration: p' = v, v' = a, a' = w; nine
+// numbers (p v a).
+class ConstantAcceleration : public MotionModel {
+ public:
+  explicit ConstantAcceleration(double jerk_density);  // q, (m/s^3)^2 / Hz, > 0
+
+  [[nodiscard]] Eigen::Index dimension() const override { return 9; }
+  [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
+                                        const Eigen::Matrix3d& covariance) const override;
+
+ private:
+  double jerk_density_;
+};
+
+// What swings about a centre with an unknown frequency common to the axes: p'' = -W^2 (p - c) + w;
+// ten numbers (p v c ln W). Centre and ln W drift like random walks. Not linear.
+struct OscillationNoise {
+  double acceleration_density = 0.0;  // of w, (m/s^2)^2 / Hz, > 0
+  double centre_density = 0.0;        // of c', (m/s)^2 / Hz, > 0
+  double frequency_density = 0.0;     // of (ln W)', 1 / s, > 0
+};
+
+class Oscillation : public MotionModel {
+ public:
+  explicit Oscillation(const OscillationNoise& noise);
+
+  [[nodiscard]] Eigen::Index dimension() const override { return 10; }
+  [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
+                                        const Eigen::Matrix3d& covariance) const override;
+
+ private:
+  OscillationNoise noise_;
 };
 
 // Q of every axis, for three axes: (x y z, vx vy vz).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows one target through sights, ghosts and gaps, and says where it will be.
+// Follows one target through sights, ghosts and gaps, and says where it will be: the front end of
+// any TargetPredictor, which has the position; the orientation has a filter of its own.
 //
 // For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
 // if its Mahalanobis distance passes the gate, correct (the orientation has a gate of its own: a
@@ -20,14 +21,13 @@
 
 #include "prf_predictor/orientation_filter.hpp"
 #include "prf_predictor/tag_measurement.hpp"
-#include "prf_predictor/ukf.hpp"
+#include "prf_predictor/target_predictor.hpp"
 
 namespace prf_predictor {
 
 using Nanoseconds = std::int64_t;
 
 struct TrackerParams {
-  SigmaPointParams sigma_points;
   VelocityDecay rotation;         // of the angular velocity
   double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
   int reacquire_hits = 0;         // >= 2
@@ -41,7 +41,7 @@ void validate(const TrackerParams& params);
 enum class TrackStatus { kNoTarget, kTracking, kCoasting, kLost };
 
 struct Belief {
-  Gaussian motion;
+  std::shared_ptr<const TargetPredictor> motion;  // never changed once it is here
   OrientationBelief orientation;
 };
 
@@ -71,19 +71,17 @@ enum class Arrival { kInOrder, kDuplicate, kReplayed, kTooOld, kNewRun };
 
 struct Prediction {
   double horizon = 0.0;  // s
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  PointForecast point;
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 6, 6> covariance =
-      Eigen::Matrix<double, 6, 6>::Zero();  // position, velocity
 };
 
 class TargetTracker {
  public:
   static constexpr Nanoseconds kHistory = 1'000'000'000;
 
-  TargetTracker(const TrackerParams& params, std::shared_ptr<const MotionModel> model);
+  // `predictor` is what every track starts from, before its begin().
+  TargetTracker(const TrackerParams& params, std::shared_ptr<const TargetPredictor> predictor);
 
   struct Answer {
     Arrival arrival = Arrival::kInOrder;
@@ -113,7 +111,7 @@ class TargetTracker {
   void settle_status(TrackState& state) const;
 
   TrackerParams params_;
-  std::shared_ptr<const MotionModel> model_;
+  std::shared_ptr<const TargetPredictor> predictor_;
   double gate_;
   std::deque<Entry> history_;
 };

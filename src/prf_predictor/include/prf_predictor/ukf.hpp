@@ -12,10 +12,6 @@
 
 namespace prf_predictor {
 
-// Position known by its measurement, the rest by the model's prior.
-[[nodiscard]] Gaussian initial_belief(const MotionModel& model, const Eigen::Vector3d& position,
-                                      const Eigen::Matrix3d& covariance);
-
 [[nodiscard]] Gaussian predict(const Gaussian& belief, const MotionModel& model, double dt,
                                const SigmaPointParams& params);
 
@@ -29,6 +25,12 @@ struct Innovation {
 [[nodiscard]] Innovation innovate(const Gaussian& belief, const Eigen::Vector3d& position,
                                   const Eigen::Matrix3d& covariance,
                                   const SigmaPointParams& params);
+
+// The same once the expected measurement and its covariance with the state (n x 3) are known.
+[[nodiscard]] Innovation innovation_of(const Gaussian& expected,
+                                       const Eigen::MatrixXd& cross_covariance,
+                                       const Eigen::Vector3d& position,
+                                       const Eigen::Matrix3d& covariance);
 
 [[nodiscard]] Gaussian correct(const Gaussian& belief, const Innovation& innovation);
 

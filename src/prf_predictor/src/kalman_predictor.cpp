@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/kalman_predictor.hpp"
+
+#include <utility>
+
+#include "prf_predictor/ekf.hpp"
+#include "prf_predictor/ukf.hpp"
+#include "require.hpp"
+
+namespace prf_predictor {
+
+bool is_finite(const PointForecast& forecast) {
+  return forecast.position.allFinite() && forecast.velocity.allFinite() &&
+         forecast.covariance.allFinite();
+}
+
+KalmanPredictor::KalmanPredictor(std::shared_ptr<const MotionModel> model,
+                                 const std::optional<SigmaPointParams>& sigma_points)
+    : model_(std::move(model)), sigma_points_(sigma_points) {
+  require(model_ != nullptr, "model", "null", "given");
+  if (sigma_points_) validate(*sigma_points_);
+}
+
+std::unique_ptr<TargetPredictor> KalmanPredictor::clone() const {
+  return std::make_unique<KalmanPredictor>(*this);
+}
+
+void KalmanPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
+  belief_ = model_->initial_belief(position, covariance);
+}
+
+Gaussian KalmanPredictor::ahead(double dt) const {
+  return sigma_points_ ? predict(belief_, *model_, dt, *sigma_points_)
+                       : predict(belief_, *model_, dt);
+}
+
+void KalmanPredictor::advance(double dt) { belief_ = ahead(dt); }
+
+void KalmanPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
+  const Innovation innovation = sigma_points_
+                                    ? innovate(belief_, position, covariance, *sigma_points_)
+                                    : innovate(belief_, position, covariance);
+  belief_ = prf_predictor::correct(belief_, innovation);
+}
+
+PointForecast KalmanPredictor::forecast(double horizon) const {
+  const Gaussian future = ahead(horizon);
+  return {future.mean.head<3>(), future.mean.segment<3>(3),
+          future.covariance.topLeftCorner<6, 6>()};
+}
+
+}  // namespace prf_predictor

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/predictors.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "prf_predictor/kalman_predictor.hpp"
+#include "require.hpp"
+
+namespace prf_predictor {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Entry {
+  std::string name;
+  std::vector<std::string> parameters;
+  std::function<std::unique_ptr<TargetPredictor>(const Values&)> make;
+};
+
+template <typename Model, typename Noise>
+std::unique_ptr<TargetPredictor> kalman(const Noise& noise,
+                                        const std::optional<SigmaPointParams>& sigma_points) {
+  return std::make_unique<KalmanPredictor>(std::make_shared<Model>(noise), sigma_points);
+}
+
+OscillationNoise oscillation_noise(const Values& values) {
+  return {values.at("acceleration_density"), values.at("centre_density"),
+          values.at("frequency_density")};
+}
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> kEntries{
+      {"ukf",
+       {"acceleration_density", "velocity_time_constant"},
+       [](const Values& values) {
+         return kalman<DecayingVelocity>(
+             VelocityDecay{values.at("acceleration_density"), values.at("velocity_time_constant")},
+             SigmaPointParams::textbook());
+       }},
+      {"paper",
+       {"acceleration_density"},
+       [](const Values& values) {
+         return kalman<DecayingVelocity>(
+             VelocityDecay{values.at("acceleration_density"), kInfinity},
+             SigmaPointParams::paper());
+       }},
+      {"constant_velocity",
+       {"acceleration_density"},
+       [](const Values& values) {
+         return kalman<DecayingVelocity>(
+             VelocityDecay{values.at("acceleration_density"), kInfinity},
+             SigmaPointParams::textbook());
+       }},
+      {"constant_acceleration",
+       {"jerk_density"},
+       [](const Values& values) {
+         return kalman<ConstantAcceleration>(values.at("jerk_density"),
+                                             SigmaPointParams::textbook());
+       }},
+      {"oscillation",
+       {"acceleration_density", "centre_density", "frequency_density"},
+       [](const Values& values) {
+         return kalman<Oscillation>(oscillation_noise(values), SigmaPointParams::textbook());
+       }},
+      {"ekf",
+       {"acceleration_density", "centre_density", "frequency_density"},
+       [](const Values& values) {
+         return kalman<Oscillation>(oscillation_noise(values), std::nullopt);
+       }},
+  };
+  return kEntries;
+}
+
+const Entry& entry_of(const std::string& name) {
+  const auto found = std::find_if(entries().begin(), entries().end(),
+                                  [&](const Entry& entry) { return entry.name == name; });
+  std::string names;
+  for (const Entry& entry : entries()) names += (names.empty() ? "" : ", ") + entry.name;
+  require(found != entries().end(), "predictor", name, "one of " + names);
+  return *found;
+}
+
+}  // namespace
+
+std::vector<std::string> predictor_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) names.push_back(entry.name);
+  return names;
+}
+
+std::vector<std::string> predictor_parameters(const std::string& name) {
+  return entry_of(name).parameters;
+}
+
+std::unique_ptr<TargetPredictor> make_predictor(const std::string& name, const Values& values) {
+  const Entry& entry = entry_of(name);
+  for (const std::string& key : entry.parameters) {
+    require(values.count(key) == 1, key, "nothing", "given for the predictor " + name);
+  }
+  for (const auto& [key, value] : values) {
+    bool is_known = false;
+    for (const std::string& parameter : entry.parameters) is_known |= parameter == key;
+    require(is_known, key, value, "left out: the predictor " + name + " has no such parameter");
+  }
+  return entry.make(values);
+}
+
+}  // namespace prf_predictor
