@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "prf_predictor/kalman_predictor.hpp"
+#include "prf_predictor/periodic_predictor.hpp"
 #include "require.hpp"
 
 namespace prf_predictor {
@@ -32,8 +33,18 @@ OscillationNoise oscillation_noise(const Values& values) {
           values.at("frequency_density")};
 }
 
+PeriodicParams periodic_params(const Values& values) {
+  return {values.at("slowest"), values.at("fastest"), values.at("step_slowest"),
+          values.at("step_fastest"), values.at("memory")};
+}
+
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries{
+      {"periodic",
+       {"slowest", "fastest", "step_slowest", "step_fastest", "memory"},
+       [](const Values& values) {
+         return std::make_unique<PeriodicPredictor>(periodic_params(values));
+       }},
       {"ukf",
        {"acceleration_density", "velocity_time_constant"},
        [](const Values& values) {

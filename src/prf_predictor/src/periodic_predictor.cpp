@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/periodic_predictor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "require.hpp"
+
+namespace prf_predictor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kFrequencies = 12;
+constexpr int kStepBands = 5;
+constexpr double kPlatformSwing = 0.06;  // m, standard deviation before anything is known
+constexpr double kStepSwing = 0.015;     // m, of the whole band
+constexpr double kPurity = 0.01;         // damping ratio of what is periodic
+constexpr double kStepPurity = 0.07;
+const VelocityDecay kDrift{1e-3, 0.3};
+const std::vector<Resonance> kWander{{1.5, 0.9, 0.03}, {17.0, 0.3, 0.003}, {26.0, 0.3, 0.002}};
+// Not periodic: the constant-velocity model, two whose velocity decays, and rest.
+const std::vector<VelocityDecay> kAperiodic{{0.3, kInfinity}, {0.3, 0.6}, {0.3, 0.3}, {1e-4, 0.6}};
+// Errors of forecasts so far apart in time are taken as independent, s, at the ledger's horizons.
+constexpr std::array<double, ForecastLedger::kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0,
+                                                                            1.5};
+constexpr double kInnovationMemory = 3.0;  // s
+
+// n values from first to last, neighbours at equal ratios.
+std::vector<double> geometric(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(first * std::pow(last / first, static_cast<double>(i) / (count - 1)));
+  }
+  return values;
+}
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+void validate(const PeriodicParams& params) {
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  require(positive(params.slowest), "slowest", params.slowest, "finite and > 0 rad/s");
+  require(params.fastest > params.slowest && std::isfinite(params.fastest), "fastest",
+          params.fastest, "finite and > slowest");
+  require(positive(params.step_slowest), "step_slowest", params.step_slowest,
+          "finite and > 0 rad/s");
+  require(params.step_fastest > params.step_slowest && std::isfinite(params.step_fastest),
+          "step_fastest", params.step_fastest, "finite and > step_slowest");
+  require(positive(params.memory), "memory", params.memory, "finite and > 0 s");
+}
+
+std::shared_ptr<const PeriodicPredictor::Bank> PeriodicPredictor::make_bank(
+    const PeriodicParams& params) {
+  validate(params);
+  auto bank = std::make_shared<Bank>();
+  bank->params = params;
+  // Parts: 0 the drift, then wander and steps, the platform's frequencies, and their doubles.
+  Parts parts{kDrift, kWander};
+  for (const double W : geometric(params.step_slowest, params.step_fastest, kStepBands)) {
+    parts.resonances.push_back({W, kStepPurity, kStepSwing / std::sqrt(kStepBands)});
+  }
+  const auto frequencies = geometric(params.slowest, params.fastest, kFrequencies);
+  std::vector<int> common(parts.resonances.size() + 1);
+  std::iota(common.begin(), common.end(), 0);
+  const int first = static_cast<int>(common.size());
+  for (const double W : frequencies) parts.resonances.push_back({W, kPurity, kPlatformSwing});
+  for (const double W : frequencies) {
+    parts.resonances.push_back({2 * W, kPurity, kPlatformSwing / 6});
+  }
+  bank->parts.push_back(parts);
+
+  const auto add = [&](int a, int b, std::vector<double> known) {
+    std::vector<int> used = common;
+    used.insert(used.end(), {first + a, first + b});
+    bank->hypotheses.push_back({0, used, std::move(known), 0.0});
+  };
+  for (int a = 0; a < kFrequencies; ++a) {
+    add(a, kFrequencies + a, {frequencies[index(a)]});
+    for (int b = a + 1; b < kFrequencies; ++b) {
+      add(a, b, {frequencies[index(a)], frequencies[index(b)]});
+    }
+  }
+  const double each = 1.0 / static_cast<double>(bank->hypotheses.size());
+  for (Hypothesis& hypothesis : bank->hypotheses) hypothesis.prior = 0.5 * each;
+  for (const VelocityDecay& decay : kAperiodic) {
+    bank->hypotheses.push_back(
+        {bank->parts.size(), {0}, {}, 0.5 / static_cast<double>(kAperiodic.size())});
+    bank->parts.push_back({decay, {}});
+  }
+  return bank;
+}
+
+PeriodicPredictor::PeriodicPredictor(const PeriodicParams& params)
+    : bank_(make_bank(params)),
+      ledger_(static_cast<Eigen::Index>(bank_->hypotheses.size()), params.memory) {}
+
+std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
+  return std::make_unique<PeriodicPredictor>(*this);
+}
+
+void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
+  beliefs_.clear();
+  ledger_ =
+      ForecastLedger(static_cast<Eigen::Index>(bank_->hypotheses.size()), bank_->params.memory);
+  time_ = 0.0;
+  innovation_excess_.setOnes();
+  const double variance = covariance.trace() / 3;
+  for (const Hypothesis& hypothesis : bank_->hypotheses) {
+    beliefs_.emplace_back(bank_->parts[hypothesis.parts], hypothesis.used, position, variance);
+  }
+  settle_weights(variance);
+  ledger_.observe(time_, position, covariance.diagonal());
+  promise();
+}
+
+PeriodicPredictor::Transitions PeriodicPredictor::transitions(double dt) const {
+  Transitions result;
+  for (const Parts& parts : bank_->parts) result.push_back(parts.transitions(dt));
+  return result;
+}
+
+void PeriodicPredictor::advance(double dt) {
+  const Transitions passing = transitions(dt);
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].advance(passing[bank_->hypotheses[i].parts]);
+  }
+  time_ += dt;
+}
+
+void PeriodicPredictor::correct(const Eigen::Vector3d& position,
+                                const Eigen::Matrix3d& covariance) {
+  const PointForecast expected = mixture(0);
+  const Eigen::Array3d ratio =
+      (position - expected.position).array().square() /
+      (expected.covariance.diagonal().head<3>() + covariance.diagonal()).array();
+  innovation_excess_ += (ratio - innovation_excess_) / (30.0 * kInnovationMemory);
+
+  const double variance = covariance.trace() / 3;
+  for (SpectralBelief& belief : beliefs_) belief.correct(position, variance);
+  ledger_.observe(time_, position, covariance.diagonal());
+  settle_weights(covariance.trace());
+  promise();
+}
+
+void PeriodicPredictor::settle_weights(double noise_variance) {
+  const auto& hypotheses = bank_->hypotheses;
+  weights_.assign(ForecastLedger::kHorizons.size(), {});
+  for (std::size_t k = 0; k < weights_.size(); ++k) {
+    const ForecastLedger::Score score = ledger_.score(k);
+    Eigen::ArrayXd& weight = weights_[k];
+    weight.resize(static_cast<Eigen::Index>(hypotheses.size()));
+    for (Eigen::Index i = 0; i < weight.size(); ++i) {
+      weight(i) = std::log(hypotheses[static_cast<std::size_t>(i)].prior);
+    }
+    if (score.evidence > 0) {
+      weight -=
+          1.5 * score.evidence / kIndependent[k] * (score.squared_error + noise_variance).log();
+    } else if (k > 0) {
+      weight = weights_[k - 1].log();
+    }
+    weight = (weight - weight.maxCoeff()).exp();
+    weight /= weight.sum();
+  }
+}
+
+void PeriodicPredictor::promise() {
+  ForecastLedger::Promises promises;
+  for (std::size_t k = 0; k < promises.size(); ++k) {
+    const double horizon = ForecastLedger::kHorizons[k];
+    const Transitions passing = transitions(horizon);
+    auto& candidates = promises[k].candidates;
+    candidates.resize(3, static_cast<Eigen::Index>(beliefs_.size()));
+    for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+      candidates.col(static_cast<Eigen::Index>(i)) =
+          beliefs_[i].position(passing[bank_->hypotheses[i].parts]);
+    }
+    const PointForecast given = mixture(horizon);
+    promises[k].position = given.position;
+    promises[k].variance = given.covariance.diagonal().head<3>();
+  }
+  ledger_.promise(time_, std::move(promises));
+}
+
+Eigen::ArrayXd PeriodicPredictor::weights(double horizon) const {
+  const BetweenHorizons between = between_horizons(horizon);
+  return (1 - between.fraction) * weights_[between.lower] +
+         between.fraction * weights_[between.upper];
+}
+
+PointForecast PeriodicPredictor::mixture(double horizon) const {
+  const Transitions passing = transitions(horizon);
+  const Eigen::ArrayXd weight = weights(horizon);
+  Eigen::Matrix<double, 6, 1> mean = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 6> second = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
+  std::vector<std::pair<double, Eigen::Matrix<double, 6, 1>>> modes;
+  constexpr double kNegligible = 1e-6;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const double w = weight(static_cast<Eigen::Index>(i));
+    if (w < kNegligible) continue;
+    const auto one = beliefs_[i].forecast(passing[bank_->hypotheses[i].parts]);
+    Eigen::Matrix<double, 6, 1> mode;
+    mode << one.position, one.velocity;
+    modes.emplace_back(w, mode);
+    mean += w * mode;
+    within += w * one.covariance;
+  }
+  double total = 0.0;
+  for (const auto& mode : modes) total += mode.first;
+  mean /= total;
+  for (const auto& [w, mode] : modes) second += w * (mode - mean) * (mode - mean).transpose();
+  return {mean.head<3>(), mean.tail<3>(), (for_three_axes(within) + second) / total};
+}
+
+Eigen::Array3d PeriodicPredictor::excess(double horizon) const {
+  const BetweenHorizons between = between_horizons(horizon);
+  const Eigen::Array3d lower = ledger_.score(between.lower).excess;
+  const double first = ForecastLedger::kHorizons.front();
+  if (horizon < first) return innovation_excess_ + horizon / first * (lower - innovation_excess_);
+  return lower + between.fraction * (ledger_.score(between.upper).excess - lower);
+}
+
+PointForecast PeriodicPredictor::forecast(double horizon) const {
+  PointForecast forecast = mixture(horizon);
+  const Eigen::Vector3d scale = excess(horizon).sqrt();
+  Eigen::Matrix<double, 6, 1> both;
+  both << scale, scale;
+  forecast.covariance = repaired(both.asDiagonal() * forecast.covariance * both.asDiagonal());
+  return forecast;
+}
+
+PeriodicPredictor::Rhythm PeriodicPredictor::rhythm(double horizon) const {
+  const Eigen::ArrayXd weight = weights(horizon);
+  Rhythm rhythm;
+  double best = 0.0;
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    const Hypothesis& hypothesis = bank_->hypotheses[i];
+    const double w = weight(static_cast<Eigen::Index>(i));
+    if (hypothesis.frequencies.empty()) continue;
+    rhythm.probability += w;
+    if (w > best) rhythm.frequencies = hypothesis.frequencies;
+    best = std::max(best, w);
+  }
+  return rhythm;
+}
+
+}  // namespace prf_predictor

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/spectral_model.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace prf_predictor {
+
+Transition transition(const VelocityDecay& drift, double dt) {
+  Transition result;
+  result.F << 1, drift.travel(dt), 0, drift.velocity_factor(dt);
+  result.Q = drift.noise(dt);
+  return result;
+}
+
+Transition transition(const Resonance& resonance, double dt) {
+  const double W = resonance.frequency;
+  const double decay = resonance.damping * W;
+  const double damped = W * std::sqrt(1 - resonance.damping * resonance.damping);
+  const double envelope = std::exp(-decay * dt);
+  const double cosine = envelope * std::cos(damped * dt);
+  const double sine = envelope * std::sin(damped * dt) / damped;
+  Transition result;
+  result.F << cosine + decay * sine, sine, -W * W * sine, cosine - decay * sine;
+  const Eigen::Matrix2d S =
+      std::pow(resonance.sigma, 2) * Eigen::Vector2d(1, W * W).asDiagonal().toDenseMatrix();
+  result.Q = S - result.F * S * result.F.transpose();
+  return result;
+}
+
+std::vector<Transition> Parts::transitions(double dt) const {
+  std::vector<Transition> result{transition(drift, dt)};
+  for (const Resonance& resonance : resonances) result.push_back(transition(resonance, dt));
+  return result;
+}
+
+SpectralBelief::SpectralBelief(const Parts& parts, std::vector<int> used,
+                               const Eigen::Vector3d& position, double variance)
+    : used_(std::move(used)) {
+  const auto size = 2 * static_cast<Eigen::Index>(used_.size());
+  x_.setZero(size, 3);
+  P_.setZero(size, size);
+  Eigen::Index row = 0;
+  double unknown = variance;
+  for (const int part : used_) {
+    if (part == 0) {
+      x_.row(row) = position;
+      P_(row + 1, row + 1) = parts.drift.prior_variance();
+    } else {
+      const Resonance& resonance = parts.resonances[static_cast<std::size_t>(part - 1)];
+      P_(row, row) = std::pow(resonance.sigma, 2);
+      P_(row + 1, row + 1) = std::pow(resonance.sigma * resonance.frequency, 2);
+      unknown += P_(row, row);
+    }
+    row += 2;
+  }
+  for (Eigen::Index i = 0; i < size; i += 2) {
+    if (used_[static_cast<std::size_t>(i / 2)] == 0) P_(i, i) = unknown;
+  }
+  correct(position, variance);
+}
+
+void SpectralBelief::advance(const std::vector<Transition>& transitions) {
+  const auto count = static_cast<Eigen::Index>(used_.size());
+  const auto of = [&](Eigen::Index i) -> const Transition& {
+    return transitions[static_cast<std::size_t>(used_[static_cast<std::size_t>(i)])];
+  };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Matrix2d& F = of(i).F;
+    x_.middleRows<2>(2 * i) = (F * x_.middleRows<2>(2 * i)).eval();
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const Eigen::Matrix2d block = P_.block<2, 2>(2 * i, 2 * j);
+      P_.block<2, 2>(2 * i, 2 * j) = F * block * of(j).F.transpose();
+    }
+    P_.block<2, 2>(2 * i, 2 * i) += of(i).Q;
+  }
+  P_.triangularView<Eigen::StrictlyUpper>() = P_.transpose();
+}
+
+void SpectralBelief::correct(const Eigen::Vector3d& position, double variance) {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> PH;
+  PH.setZero(P_.rows());
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < P_.rows(); i += 2) {
+    PH += P_.col(i);
+    expected += x_.row(i).transpose();
+  }
+  double S = variance;
+  for (Eigen::Index i = 0; i < P_.rows(); i += 2) S += PH(i);
+  x_ += PH * ((position - expected) / S).transpose();
+  P_ -= PH * PH.transpose() / S;
+}
+
+SpectralBelief::Forecast SpectralBelief::forecast(
+    const std::vector<Transition>& transitions) const {
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMost> G;  // position and velocity of the state
+  G.setZero(2, P_.rows());
+  Eigen::Matrix2d Q = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    const Transition& part = transitions[static_cast<std::size_t>(used_[i])];
+    G.middleCols<2>(2 * static_cast<Eigen::Index>(i)) = part.F;
+    Q += part.Q;
+  }
+  const Eigen::Matrix<double, 2, 3> mean = G * x_;
+  return {mean.row(0), mean.row(1), G * P_ * G.transpose() + Q};
+}
+
+Eigen::Vector3d SpectralBelief::position(const std::vector<Transition>& transitions) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Index row = 0;
+  for (const int part : used_) {
+    sum += x_.middleRows<2>(row).transpose() *
+           transitions[static_cast<std::size_t>(part)].F.row(0).transpose();
+    row += 2;
+  }
+  return sum;
+}
+
+}  // namespace prf_predictor
