@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recorded_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+namespace prf_predictor {
+namespace {
+
+constexpr double kLongestGap = 0.05;  // s between rows
+constexpr double kLateral = 7e-5;     // m at 1 m
+constexpr double kAlong = 7e-4;       // m at 1 m
+constexpr double kFloor = 3e-4;       // m
+constexpr double kOrientationSigma = 0.003;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+std::optional<std::size_t> find(const std::vector<std::string>& header, const std::string& name) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> RecordedMotion::at(double t) const {
+  const auto after = std::lower_bound(time.begin(), time.end(), t);
+  if (after == time.end()) return std::nullopt;
+  const auto i = static_cast<std::size_t>(after - time.begin());
+  if (*after == t) return position[i];
+  if (i == 0 || time[i] - time[i - 1] > kLongestGap) return std::nullopt;
+  const double fraction = (t - time[i - 1]) / (time[i] - time[i - 1]);
+  return position[i - 1] + fraction * (position[i] - position[i - 1]);
+}
+
+RecordedMotion read_motion(const std::string& path, const std::array<std::string, 4>& columns) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument(path + " cannot be read");
+  RecordedMotion motion;
+  std::array<std::size_t, 4> own{};
+  std::vector<std::size_t> camera;
+  std::size_t count = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    const auto cells = cells_of(line);
+    if (count == 0) {
+      count = cells.size();
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto found = find(cells, columns[i]);
+        if (!found) throw std::invalid_argument(path + " has no column " + columns[i]);
+        own[i] = *found;
+      }
+      for (const char* name : {"camera_x", "camera_y", "camera_z"}) {
+        if (const auto found = find(cells, name)) camera.push_back(*found);
+      }
+      continue;
+    }
+    try {
+      const auto number = [&](std::size_t i) { return std::stod(cells.at(i)); };
+      const double t = number(own[0]);
+      if (!motion.time.empty() && !(t > motion.time.back())) {
+        throw std::invalid_argument("time does not rise");
+      }
+      motion.time.push_back(t);
+      motion.position.emplace_back(number(own[1]), number(own[2]), number(own[3]));
+      if (motion.time.size() > 1) continue;
+      motion.camera = camera.size() == 3
+                          ? Eigen::Vector3d(number(camera[0]), number(camera[1]), number(camera[2]))
+                          : motion.position[0] - 0.6 * Eigen::Vector3d::UnitX();
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(path + ", row " + std::to_string(motion.time.size() + 1) + ": " +
+                                  error.what());
+    }
+  }
+  if (motion.time.size() < 2) throw std::invalid_argument(path + " has fewer than 2 rows");
+  return motion;
+}
+
+std::vector<Sighting> see(const RecordedMotion& motion, double rate, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, 1);
+  std::vector<Sighting> sightings;
+  const double start = motion.time.front();
+  for (int frame = 0;; ++frame) {
+    const auto since = static_cast<Nanoseconds>(std::llround(frame * 1000.0 / rate)) * 1'000'000;
+    const double t = start + 1e-9 * static_cast<double>(since);
+    if (t > motion.time.back()) return sightings;
+    Sighting sighting{since, {}};
+    if (const auto truth = motion.at(t)) {
+      const Eigen::Vector3d view = *truth - motion.camera;
+      const double growth = view.squaredNorm();
+      const Eigen::Vector3d along = view.normalized();
+      TagMeasurement sight;
+      sight.position_covariance =
+          (std::pow(kLateral * growth, 2) + kFloor * kFloor) * Eigen::Matrix3d::Identity() +
+          (std::pow(kAlong * growth, 2) - std::pow(kLateral * growth, 2)) * along *
+              along.transpose();
+      const Eigen::Matrix3d root = sight.position_covariance.llt().matrixL();
+      const double x = normal(random);
+      const double y = normal(random);
+      sight.position = *truth + root * Eigen::Vector3d(x, y, normal(random));
+      sight.orientation_covariance = std::pow(kOrientationSigma, 2) * Eigen::Matrix3d::Identity();
+      sighting.sights.push_back(sight);
+    }
+    sightings.push_back(sighting);
+  }
+}
+
+}  // namespace prf_predictor
