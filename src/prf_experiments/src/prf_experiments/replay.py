@@ -13,7 +13,7 @@ from prf_experiments import connections, digest, processes, recording, session
 
 PLAYED = ["clock"] + recording.SENSORS
 COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
-FRAMEWORK_ARGUMENTS = ["planner", "framework", "decision", "demonstration"]
+FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonstration"]
 
 
 @contextlib.contextmanager

@@ -4,6 +4,9 @@ import os
 
 from prf_experiments.arguments import Argument, boolean, choice, integer, number, path, show
 
+PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceleration",
+              "oscillation", "ekf", "autoregressive", "sines", "hold"]
+
 # Given to trial.launch, and part of every result's name.
 NAMED = {
     "motion": Argument("light", **choice("none", "light", "heavy"),
@@ -20,6 +23,8 @@ LAUNCHED = {
     **NAMED,
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
+    "predictor": Argument("ukf", **choice(*PREDICTORS),
+                          meaning="how the target's motion is foretold"),
     "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),
     "real_time_factor": Argument(0.0, **number(0.0, 100.0),
                                  meaning="at most so fast, 0: as fast as it goes"),
