@@ -230,4 +230,31 @@ IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const I
   return result_of(IkStatus::kNoSolutionWithinLimits, seed, target);
 }
 
+IkResult any_inverse(const Eigen::Isometry3d& pose) {
+  constexpr double kSlack = 0.01;  // as in sample_arcs
+  const Eigen::Isometry3d target = checked_pose(pose);
+  const Eigen::Vector3d wrist = target.translation() - kToolLength * target.linear().col(2);
+  const auto circle =
+      elbow_circle(wrist - Eigen::Vector3d(0.0, 0.0, kShoulderHeight), kShoulderOffset);
+  const JointVector straight = JointVector::Constant(kPi);
+  if (!circle) return result_of(IkStatus::kOutOfReach, straight, target);
+  for (const int samples : {1, 4, 24}) {
+    for (const int elbow : {0, 1}) {
+      for (const Arc& arc : feasible_arcs(*circle, elbow, target.linear().col(2), kSlack)) {
+        for (int i = 0; i < samples; ++i) {
+          const double phi = arc.begin + (i + 0.5) / samples * (arc.end - arc.begin);
+          for (int branch = 0; branch < kBranches; ++branch) {
+            if (elbow_of(branch) != elbow) continue;
+            auto q = branch_solution(target, phi, branch);
+            if (q && within_limits(*q) && polish(target, &*q) && within_limits(*q)) {
+              return result_of(IkStatus::kSolved, normalized_angles(*q), target);
+            }
+          }
+        }
+      }
+    }
+  }
+  return result_of(IkStatus::kNoSolutionWithinLimits, straight, target);
+}
+
 }  // namespace jaco_v60_description

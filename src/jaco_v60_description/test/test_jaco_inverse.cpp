@@ -51,6 +51,20 @@ TEST(JacoInverse, SolvesReachablePosesFromAFarSeed) {
   RecordProperty("solved", solved);
 }
 
+TEST(JacoInverse, FindsAnySolutionOfEveryReachablePose) {
+  std::mt19937 generator(18);
+  for (int trial = 0; trial < 10000; ++trial) {
+    const Eigen::Isometry3d pose = forward(random_joints(&generator));
+    const IkResult result = any_inverse(pose);
+    ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
+  }
+  Eigen::Isometry3d beyond = stand_off_pose();
+  beyond.translation().x() = 1.2;
+  EXPECT_EQ(any_inverse(beyond).status, IkStatus::kOutOfReach);
+  beyond.translation() << 0.15 + 0.26375, 0.0, 0.2755;
+  EXPECT_EQ(any_inverse(beyond).status, IkStatus::kNoSolutionWithinLimits);
+}
+
 TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   std::mt19937 generator(12);
   IkOptions options;

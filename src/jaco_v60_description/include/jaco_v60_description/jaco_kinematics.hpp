@@ -76,4 +76,8 @@ struct IkResult {
 [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
                                const IkOptions& options = IkOptions());
 
+// The first solution within limits that is met, for whoever has no seed: in the middle of a
+// feasible arc if it is there. The fastest; not continuous from pose to pose.
+[[nodiscard]] IkResult any_inverse(const Eigen::Isometry3d& pose);
+
 }  // namespace jaco_v60_description
