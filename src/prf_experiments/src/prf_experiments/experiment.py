@@ -58,8 +58,9 @@ def parser():
         sweep.add_argument("--seeds", type=positive, metavar="N", help="seeds 1..N of each cell")
         sweep.add_argument("--jobs", type=positive, metavar="N", default=default_jobs(),
                            help="trials side by side on this machine [%(default)s]")
-        sweep.add_argument("--keep-bags", choices=("failed", "all", "none"), default="failed",
-                           help="failed: of every trial that is not S [%(default)s]")
+        sweep.add_argument("--keep-bags", choices=("failed", "all", "none"),
+                           help="failed: of every trial that is not S [failed; reactive and cart: "
+                           "all]")
         sweep.add_argument("--scheduler", type=address, metavar="ADDRESS",
                            help="sends the trials to a Dask cluster, as tcp://host:8786")
         sweep.add_argument("--name", type=plain_name, default=name, metavar="NAME",

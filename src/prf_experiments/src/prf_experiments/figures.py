@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from prf_experiments import geometry, judge
+from prf_experiments import judge
 
 TRUE = {"color": "black", "linewidth": 1.2}
 MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5,
@@ -60,14 +60,15 @@ def _states_panel(axes, recording):
     axes.set_ylabel("phase", fontsize=9)
 
 
-def target_over_time(recording, truth, measured, predicted, horizon):
+def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"):
     """Target in the arm's base, the belief about it and what was done.
 
-    truth, measured, predicted: (stamps ns, (n, 3) m) each.
+    truth, measured, predicted: (stamps ns, (n, 3) m) each; `shown` names the axes.
     """
-    figure = Figure(figsize=(9.0, 8.6), layout="constrained")
-    panels = figure.subplots(5, 1, sharex=True, height_ratios=[1, 1, 1, 0.8, 0.8])
-    for axis, panel in enumerate(panels[:3]):
+    figure = Figure(figsize=(9.0, 3.2 + 1.8 * len(shown)), layout="constrained")
+    *panels, belief, phase = figure.subplots(
+        len(shown) + 2, 1, sharex=True, height_ratios=[1] * len(shown) + [0.8, 0.8])
+    for axis, panel in (("xyz".index(name), panel) for name, panel in zip(shown, panels)):
         _grid(panel)
         for (stamps, values), style, label in (
                 (measured, MEASURED, "measured"), (truth, TRUE, "true"),
@@ -79,17 +80,17 @@ def target_over_time(recording, truth, measured, predicted, horizon):
         slack = max(5.0, 0.25 * (high - low))
         panel.set_ylim(low - slack, high + slack)
     panels[0].legend(loc="upper right", fontsize=8, ncols=3)
-    _grid(panels[3])
+    _grid(belief)
     for index, (name, style) in enumerate(BELIEFS):
-        times, belief = thin(recording.seconds(recording.progress.stamps),
+        times, believed = thin(recording.seconds(recording.progress.stamps),
                              recording.progress.posteriors[:, index])
-        panels[3].plot(times, belief, label=name, linewidth=1.3, **style)
-    panels[3].set_ylim(-0.05, 1.05)
-    panels[3].set_ylabel("HMM belief", fontsize=9)
-    panels[3].legend(loc="center right", fontsize=8)
-    _grid(panels[4])
-    _states_panel(panels[4], recording)
-    panels[4].set_xlabel("time, s", fontsize=9)
+        belief.plot(times, believed, label=name, linewidth=1.3, **style)
+    belief.set_ylim(-0.05, 1.05)
+    belief.set_ylabel("HMM belief", fontsize=9)
+    belief.legend(loc="center right", fontsize=8)
+    _grid(phase)
+    _states_panel(phase, recording)
+    phase.set_xlabel("time, s", fontsize=9)
     return svg(figure, "Target position, HMM belief and phase over time")
 
 
@@ -183,8 +184,3 @@ def paths_before_box(executed, demonstrated):
     side.set_title("from the side", fontsize=9)
     top.set_title("from above", fontsize=9)
     return svg(figure, "Path of the hand seen from the tag, with the walls of the box")
-
-
-def relative_to(frame, poses):
-    """Positions (n, 3) of poses in a frame's poses, both (n, 7) in one parent."""
-    return geometry.compose(geometry.inverse(frame), poses)[:, :3]

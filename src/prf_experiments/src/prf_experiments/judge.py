@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from prf_experiments import geometry
+from prf_experiments import geometry, target
 
 SECOND = 1_000_000_000  # ns
 
@@ -221,6 +221,7 @@ def judge(recording):
     reasons = failures + issues if failures else [reach] + (issues or ["no issue"])
     execution_mean, execution_deviation = _lateral_statistics(recording, EXECUTION, stamps, lateral)
     tracking_mean, tracking_deviation = _lateral_statistics(recording, TRACKING, stamps, lateral)
+    horizon, forecast_error = target.forecast_error(recording)
     figures = {
         "duration_s": float(recording.seconds(recording.ticks[-1])),
         "reached_s": None if reached is None else float(recording.seconds(reached)),
@@ -239,6 +240,8 @@ def judge(recording):
         "execution_lateral_deviation_mm": execution_deviation,
         "tracking_lateral_mean_mm": tracking_mean,
         "tracking_lateral_deviation_mm": tracking_deviation,
+        "forecast_horizon_s": horizon,
+        "forecast_error_rms_mm": forecast_error,
         "fallen_s": None if fall is None else float(recording.seconds(fall)),
         "lowest_body_height_mm": 1e3 * height,
         "largest_body_tilt_deg": float(np.degrees(tilt)),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from prf_experiments import arguments as args
-from prf_experiments import page, session, sweep, trial, trial_arguments
+from prf_experiments import page, recording, session, sweep, trial, trial_arguments
 
 EXIT_OK, EXIT_INVALID = 0, 3
 FIRST_SEEDS = 3  # as many as the paper's trials of a cell
@@ -22,8 +22,9 @@ class Study:
     fixed: dict  # {argument: value} that is not the default
     summarise: Callable  # results -> {key: ...}, goes into the JSON file
     text: Callable  # summary -> what the terminal shows
-    parts: Callable  # summary, folder -> HTML of the page
+    parts: Callable  # summary, results, folder -> HTML of the page
     seeds: int = FIRST_SEEDS
+    keep_bags: str = "failed"
 
 
 def trials(study, options):
@@ -50,7 +51,25 @@ def test_link(result):
     verdict = result["verdict"]
     title = html.escape(f"seed {result['arguments']['seed']}: {result['reason']}", quote=True)
     return page.Markup(f'<a class="test {verdict}" href="{html.escape(link(result["arguments"]))}" '
-                       f'title="{title}">{"×" if verdict == "INVALID" else verdict}</a>')
+                       f'title="{title}">{letters([result])}</a>')
+
+
+def letters(results):
+    """The verdicts of some trials as one word."""
+    return "".join("×" if result["verdict"] == "INVALID" else result["verdict"]
+                   for result in results)
+
+
+def read_bag(folder, result):
+    """(path, recording) of a trial's bag; the recording is None when the bag was not kept."""
+    bag = os.path.join(sweep.trial_folder(folder, result["arguments"]), "trial.bag")
+    try:
+        return bag, recording.read(bag)
+    except recording.RecordingError:
+        return bag, None
+
+
+NO_BAG = "<p>Its bag is not there; keep it with <code>--keep-bags all</code>.</p>"
 
 
 def cell(results, **chosen):
@@ -84,7 +103,8 @@ def run(study, options, command):
     folder = os.path.join(options.values.get("results", [os.path.abspath("results")])[0],
                           options.name)
     versions = trial.versions()
-    chosen = sweep.Options(options.jobs, options.keep_bags, options.scheduler, options.any_version)
+    chosen = sweep.Options(options.jobs, options.keep_bags or study.keep_bags, options.scheduler,
+                           options.any_version)
     results = sweep.run(trials(study, options), folder, chosen, versions)
     summary = {"command": command, "versions": versions, **study.summarise(results),
                "trials": [{**result, "report": link(result["arguments"])} for result in results]}
@@ -93,7 +113,7 @@ def run(study, options, command):
             json.dump(summary, stream, indent=2)
             stream.write("\n")
     body = [f'<pre class="wide">{html.escape(study.text(summary))}</pre>',
-            *study.parts(summary, results)]
+            *study.parts(summary, results, folder)]
     index = os.path.join(folder, "index.html")
     write_page(index, study, command, versions, results, body)
     print(study.text(summary) + "\n" + index)

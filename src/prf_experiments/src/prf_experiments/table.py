@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Verdicts of the trials, motion x gait x framework, as the paper's table and as rates."""
+"""Verdicts of the trials, motion x gait x framework, as the paper's table and as rates.
+
+Other tables of verdicts differ in their axes only; a summary says which ones it has.
+"""
+import itertools
+
 from matplotlib.figure import Figure
 
 from prf_experiments import figures, page, statistics
-from prf_experiments.study import Study, cell, test_link, values
+from prf_experiments.study import Study, cell, letters, test_link, values
 
 AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
         "framework": [False, True]}
+ORDER = ("framework", "motion", "gait")
 VERDICTS = ("S", "P", "F", "INVALID")
 SHADES = {"S": ("white", ""), "P": ("0.8", "///"), "F": ("0.15", ""), "INVALID": ("white", "xx")}
 
 
-def cells(results):
+def cells(results, axes):
     """(chosen arguments, results) of every cell, in the order of the table."""
-    for framework in values(results, "framework"):
-        for motion in values(results, "motion"):
-            for gait in values(results, "gait"):
-                chosen = {"motion": motion, "gait": gait, "framework": framework}
-                yield chosen, cell(results, **chosen)
+    for chosen in itertools.product(*(values(results, name) for name in axes)):
+        named = dict(zip(axes, chosen))
+        yield named, cell(results, **named)
 
 
 def rate(count, trials):
@@ -36,8 +40,7 @@ def row(chosen, results):
     def spread(name):
         found = statistics.spread([result["figures"].get(name) for result in results])
         return {"mean": found.mean, "deviation": found.deviation}
-    return {**chosen, "tests": "".join("×" if result["verdict"] == "INVALID" else result["verdict"]
-                                       for result in results),
+    return {**chosen, "tests": letters(results),
             "seeds": [result["arguments"]["seed"] for result in results],
             "counts": counts, "inspected_count": inspected,
             "success": rate(counts["S"], valid), "inspected": rate(inspected, valid),
@@ -46,8 +49,12 @@ def row(chosen, results):
                                       for result in results), default=0.0)}
 
 
-def summarise(results):
-    return {"cells": [row(*found) for found in cells(results)]}
+def summarise(results, axes=ORDER):
+    return {"axes": list(axes), "cells": [row(*found) for found in cells(results, axes)]}
+
+
+def shown(name, value):
+    return ("on" if value else "off") if name == "framework" else str(value)
 
 
 def percent(found):
@@ -64,18 +71,23 @@ def tests(text):
     return " ".join(text[first:first + 10] for first in range(0, len(text), 10))
 
 
-def text(summary):
-    rows = [("framework", "motion", "gait", "tests", "S", "P", "F", "inv", "success, % (95 %)",
-             "inspected, % (95 %)", "off axis, mm", "contact, N")]
-    for found in summary["cells"]:
-        off = found["tracking_lateral_mm"]["mean"]
-        rows.append(("on" if found["framework"] else "off", found["motion"], found["gait"],
-                     tests(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
-                     percent(found["success"]), percent(found["inspected"]),
-                     "–" if off is None else f"{off:.1f}", f"{found['largest_contact_n']:.1f}"))
+def aligned(rows):
+    """Lines of text with the words of each row under each other."""
     widths = [max(map(len, column)) for column in zip(*rows)]
     return "\n".join("  ".join(word.ljust(width) for word, width in zip(line, widths)).rstrip()
                      for line in rows) + "\n"
+
+
+def text(summary):
+    rows = [(*summary["axes"], "tests", "S", "P", "F", "inv", "success, % (95 %)",
+             "inspected, % (95 %)", "off axis, mm", "contact, N")]
+    for found in summary["cells"]:
+        off = found["tracking_lateral_mm"]["mean"]
+        rows.append((*(shown(name, found[name]) for name in summary["axes"]),
+                     tests(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
+                     percent(found["success"]), percent(found["inspected"]),
+                     "–" if off is None else f"{off:.1f}", f"{found['largest_contact_n']:.1f}"))
+    return aligned(rows)
 
 
 def counts_figure(summary):
@@ -83,8 +95,7 @@ def counts_figure(summary):
     found = summary["cells"]
     figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(found)), layout="constrained")
     axes = figure.subplots()
-    labels = [f"{'on' if item['framework'] else 'off'}, {item['motion']}, {item['gait']}"
-              for item in found]
+    labels = [", ".join(shown(name, item[name]) for name in summary["axes"]) for item in found]
     left = [0] * len(found)
     for verdict in VERDICTS:
         counts = [item["counts"][verdict] for item in found]
@@ -99,14 +110,14 @@ def counts_figure(summary):
     return figures.svg(figure, "Verdicts of each cell: success, partial success, failure, invalid")
 
 
-def parts(summary, results):
-    linked = [("on" if chosen["framework"] else "off", chosen["motion"], chosen["gait"],
+def parts(summary, results, _folder):
+    axes = summary["axes"]
+    linked = [(*(shown(name, chosen[name]) for name in axes),
                page.Markup(" ".join(test_link(result) for result in found)),
                percent(numbers["success"]), percent(numbers["inspected"]))
-              for (chosen, found), numbers in zip(cells(results), summary["cells"])]
+              for (chosen, found), numbers in zip(cells(results, axes), summary["cells"])]
     return ["<h2>Each test</h2><p>Every letter leads to its trial.</p>",
-            page.table(linked, ("framework", "motion", "gait", "tests", "success, % (95 %)",
-                                "inspected, % (95 %)")),
+            page.table(linked, (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)")),
             "<h2>Counts</h2>", counts_figure(summary),
             "<p>S success, P partial success, F failure, × no evidence. Rates are of the valid "
             "trials, with Wilson's 95 % interval. Off axis: mean distance of the tag's centre from "

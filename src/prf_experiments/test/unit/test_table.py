@@ -38,16 +38,16 @@ class Table(unittest.TestCase):
         self.assertEqual(table.tests("SPF"), "S P F")
 
     def test_a_cell_without_valid_trials_has_no_rate(self):
-        cell = table.summarise([result("INVALID", False)])["cells"][0]
-        self.assertIsNone(cell["success"]["fraction"])
-        self.assertIn("–", table.text({"cells": [cell]}))
+        summary = table.summarise([result("INVALID", False)])
+        self.assertIsNone(summary["cells"][0]["success"]["fraction"])
+        self.assertIn("–", table.text(summary))
 
     def test_page_links_every_test_to_its_report(self):
         summary = table.summarise(RESULTS)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "index.html")
             study.write_page(path, table.STUDY, "run <it>", {"commit": "abc"}, RESULTS,
-                             table.parts(summary, RESULTS))
+                             table.parts(summary, RESULTS, folder))
             with open(path, encoding="utf-8") as stream:
                 text = stream.read()
         links = re.findall('<a class="test ([A-Z]+)" href="([^"]*)"', text)
