@@ -27,6 +27,7 @@ def draw(bag, data, demonstrated):
     executed_before_tag = target.relative_to(tag_at, hand_at)
     demonstrated_before_tag = target.relative_to(demonstrated.target_pose, demonstrated.poses)
     plans = [plan.positions for plan in data.plans if len(plan.positions)]
+    last_plan = plans[-1] if plans else np.empty((0, 3))
     camera_stamps, camera_at, tag_at = target.matched(data.camera, data.tag)
     lateral, along = judge.tag_in_camera(camera_at, tag_at)
     return [
@@ -37,8 +38,8 @@ def draw(bag, data, demonstrated):
          figures.distances(data, camera_stamps, lateral, along,
                            judge.arm_contacts(data.contacts))),
         ("Path of the hand", "In the arm's base frame, which moves with the robot.",
-         figures.paths_in_space(executed, demonstrated.poses[:, :3],
-                                plans[-1] if plans else np.empty((0, 3)), target.true(data)[1][-1])),
+         figures.paths_in_space(executed, demonstrated.poses[:, :3], last_plan,
+                                target.true(data)[1][-1])),
         ("Path before the box", "The same seen from the tag: the box stands still.",
          figures.paths_before_box(executed_before_tag, demonstrated_before_tag)),
     ]

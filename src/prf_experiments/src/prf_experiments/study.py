@@ -32,6 +32,9 @@ def trials(study, options):
     axes = {**study.axes, "seed": list(range(1, (options.seeds or study.seeds) + 1))}
     values = {name: chosen for name, chosen in options.values.items() if name != "results"}
     fixed = {**args.parse([], trial_arguments.LAUNCHED), **study.fixed}
+    unknown = (set(fixed) | set(axes)) - set(trial_arguments.LAUNCHED)
+    if unknown:
+        raise session.SessionError("this version's trials know no argument " + ", ".join(unknown))
     for name, chosen in values.items():
         if name in axes or len(chosen) > 1:
             axes[name] = chosen
