@@ -91,22 +91,6 @@ def convert(path, command, tag_id=0):
                                        {"made by": command})
 
 
-def convert_main(words):
-    parser = argparse.ArgumentParser(
-        prog="bag_to_demonstration", description="Turns the bag of a teaching (joint_states, tf, "
-        "tag_detections) into a demonstration file.")
-    parser.add_argument("bag")
-    parser.add_argument("out")
-    options = parser.parse_args(words)
-
-    def action():
-        result = convert(options.bag, "rosrun prf_experiments bag_to_demonstration BAG OUT")
-        demonstration.write(options.out, result)
-        print(f"{len(result.times)} poses over {result.times[-1]:.1f} s: {options.out}")
-        return 0
-    return session.guarded("bag_to_demonstration", action)
-
-
 def teach(folder, seed):
     """Records folder/teach.bag with the arm led to the target."""
     lesson = session.Session(
