@@ -17,7 +17,7 @@ using platform_sim::World;
 
 constexpr char kUsage[] =
     "usage: record_motion --out FILE.csv [--motion light] [--gait stand] [--seed 1]\n"
-    "                     [--duration 40] [--rate 100]\n"
+    "                     [--body-motion FILE.csv] [--duration 40] [--rate 100]\n"
     "  simulates the robot with its arm held at the ready pose, without ROS, and writes poses\n";
 constexpr char kArmBase[] = "j2s7s300_link_base";
 constexpr char kHand[] = "j2s7s300_end_effector";
@@ -34,6 +34,7 @@ Recording read_options(int argc, char** argv) {
   platform_sim::Options options(argc, argv);
   Recording recording;
   recording.config.motion = options.text("motion", "light");
+  recording.config.body_motion = options.text("body-motion", "");
   recording.config.gait = options.text("gait", "stand");
   const long seed = options.integer("seed", 1);
   if (seed < 0) throw std::invalid_argument("--seed is negative");
@@ -50,6 +51,7 @@ std::string header_of(const Recording& recording, const World& world) {
   std::ostringstream header;
   header << "# recorded by: rosrun platform_sim record_motion\n"
          << "# motion: " << recording.config.motion << "\n"
+         << "# body_motion: " << recording.config.body_motion << "\n"
          << "# gait: " << recording.config.gait << "\n"
          << "# seed: " << recording.config.seed << "\n"
          << "# rate_hz: " << recording.rate << "\n"

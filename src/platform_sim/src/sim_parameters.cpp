@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "platform_sim/image_noise.hpp"
-#include "platform_sim/platform_motion.hpp"
 
 namespace platform_sim {
 namespace {
@@ -38,7 +37,8 @@ std::string one_of(const std::string& name, const std::string& value,
 
 SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   SimParameters result;
-  result.world.motion = one_of("motion", values.text("motion"), PlatformMotion::preset_names());
+  result.world.motion = values.text("motion");
+  result.world.body_motion = values.text("body_motion");
   result.world.gait = one_of("gait", values.text("gait"), World::gait_names());
   const int seed = values.integer("seed");
   require_within("seed", seed, 0, 2147483647);

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "arm_servo.hpp"
+#include "base_carrier.hpp"
+#include "body_motion.hpp"
 #include "gaits.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "stance.hpp"
+#include "stand_controller.hpp"
 
 namespace platform_sim {
 namespace {
@@ -68,13 +72,27 @@ void require_between(const std::string& name, double value, double low, double h
                               std::to_string(low) + " to " + std::to_string(high));
 }
 
+void require_body_motion(const std::string& path) {
+  try {
+    const BodyMotion readable(path);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body_motion is '" + path + "': " + error.what());
+  }
+}
+
 }  // namespace
 
 void WorldConfig::validate() const {
-  [[maybe_unused]] const PlatformMotion known_motion(motion);
+  const PlatformMotion deck_motion(motion);
+  if (!body_motion.empty()) require_body_motion(body_motion);
   require_gait(gait);
+  if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {
+    throw std::invalid_argument("gait is '" + gait + "', must be stand when the base is carried");
+  }
   require_between("friction", friction, 0.05, 2.0);
   require_between("base_start_x", base_start_x, -0.4, 0.2);
+  require_between("base_start_y", base_start_y, -0.3, 0.3);
+  require_between("base_start_yaw", base_start_yaw, -0.5, 0.5);
   require_between("servo_gain", servo_gain, 0.1, 200.0);
   for (int i = 0; i < arm_start.size(); ++i) {
     require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
@@ -105,8 +123,12 @@ class World::Impl {
   void drive_legs();
   [[nodiscard]] LegObservation observe_legs() const;
   void judge_fall(const std::vector<ContactPoint>& points);
+  [[nodiscard]] bool is_carried() const { return motion_.carries_base() || body_motion_; }
+  [[nodiscard]] Eigen::Isometry3d carried_base() const;
 
   PlatformMotion motion_;
+  std::optional<BodyMotion> body_motion_;
+  Eigen::Isometry3d base_start_ = Eigen::Isometry3d::Identity();  // in platform
   TargetBox target_;
   BulletScene scene_{kTimeStep};
   CuboidBody deck_;
@@ -116,6 +138,7 @@ class World::Impl {
   std::vector<std::string> joint_names_;
   std::vector<const RobotJoint*> leg_joints_;
   std::vector<const RobotJoint*> arm_joints_;
+  std::unique_ptr<BaseCarrier> base_carrier_;  // if is_carried()
   std::unique_ptr<LegController> legs_;
   std::unique_ptr<ArmDrive> arm_;
   ArmServo* servo_ = nullptr;          // arm_, in servo mode
@@ -127,6 +150,8 @@ class World::Impl {
 
 World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     : motion_(config.motion, config.seed),
+      body_motion_(config.body_motion.empty() ? std::nullopt
+                                              : std::optional<BodyMotion>(config.body_motion)),
       target_(config.target),
       deck_(scene_, "platform", to_parts({deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
@@ -134,8 +159,11 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
            motion_.deck(0.0).pose),
       post_(scene_, "post", to_parts({target_.post()}), {kTarget, ~kSurroundings},
             motion_.deck(0.0).pose),
-      robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
-             [&](const std::string& body) { return robot_surface(body, config.friction); }) {
+      robot_(scene_, urdf_xml, RobotModel::Base::kFloating, [&](const std::string& body) {
+        RobotSurface surface = robot_surface(body, config.friction);
+        if (is_carried()) surface.filter.mask &= ~kDeck;
+        return surface;
+      }) {
   for (const std::string& name : leg_joint_names()) {
     leg_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
@@ -172,11 +200,23 @@ void World::Impl::place_robot(const WorldConfig& config) {
     robot_.set_position(*leg_joints_[i], stance.posture[static_cast<Eigen::Index>(i)]);
   }
   const double height = robot_.sphere_radius("fl_toe") - stance.toes_in_base[0].z();
-  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
-  base.translation() = Eigen::Vector3d(config.base_start_x, 0.0, height);
-  robot_.set_base_pose(motion_.deck(0.0).pose * base);
+  base_start_ = body_motion_
+                    ? body_motion_->base_in_platform(0.0)
+                    : Eigen::Translation3d(config.base_start_x, config.base_start_y, height) *
+                          Eigen::AngleAxisd(config.base_start_yaw, Eigen::Vector3d::UnitZ());
+  robot_.set_base_pose(carried_base());
   robot_.update_poses();
-  legs_ = make_leg_controller(config.gait, robot_, stance, config.friction);
+  if (is_carried()) {
+    base_carrier_ = std::make_unique<BaseCarrier>(scene_, robot_);
+    legs_ = std::make_unique<StandController>(stance.posture, LegVector::Zero());
+  } else {
+    legs_ = make_leg_controller(config.gait, robot_, stance, config.friction);
+  }
+}
+
+Eigen::Isometry3d World::Impl::carried_base() const {
+  return motion_.deck(time()).pose *
+         (body_motion_ ? body_motion_->base_in_platform(time()) : base_start_);
 }
 
 // The deck is at rest at times up to 0.
@@ -190,6 +230,7 @@ void World::Impl::step() {
   drive_legs();
   arm_->update(time());
   ++steps_;
+  if (base_carrier_) base_carrier_->move_to(carried_base());
   const Eigen::Isometry3d deck = motion_.deck(time()).pose;
   for (CuboidBody* body : {&deck_, &box_, &post_}) body->move_to(deck);
   scene_.step();
@@ -222,6 +263,7 @@ void World::Impl::drive_legs() {
 }
 
 void World::Impl::judge_fall(const std::vector<ContactPoint>& points) {
+  if (is_carried()) return;
   const Eigen::Isometry3d base_in_deck =
       motion_.deck(time()).pose.inverse() * robot_.frame("base_link").pose;
   const double tilt = std::acos(std::clamp(base_in_deck.linear()(2, 2), -1.0, 1.0));

@@ -33,7 +33,7 @@ TEST(PlatformMotion, StartsAtRestWhateverTheSeed) {
 // The pitch rate is computed from the lag's equation, so this also proves the closed form of pitch.
 TEST(PlatformMotion, TwistIsTheDerivativeOfThePose) {
   constexpr double kStep = 1e-5;
-  for (const std::string& preset : PlatformMotion::preset_names()) {
+  for (const std::string& preset : preset_names()) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const PlatformMotion motion(preset, seed);
       for (double time = -0.5; time < 12.0; time += 0.0917) {
@@ -56,7 +56,9 @@ TEST(PlatformMotion, PitchesAboutAnAxisBelowAndBehindTheDeck) {
   const PlatformMotion motion("heavy");
   for (double time = 0.0; time < 10.0; time += 0.31) {
     const Eigen::Vector3d moved = motion.deck(time).pose * axis;
-    EXPECT_LT((moved - axis - Eigen::Vector3d(0.0, motion.sway(time), 0.0)).norm(), 1e-15);
+    EXPECT_LT(
+        (moved - axis - Eigen::Vector3d(0.0, motion.axis(Axis::kSway, time).value, 0.0)).norm(),
+        1e-15);
   }
 }
 
@@ -77,8 +79,10 @@ std::complex<double> line_of(const Signal& signal, double rate) {
 TEST(PlatformMotion, HeavyMovesAsTheMeasuredDeckDid) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const PlatformMotion motion("heavy", seed);
-    const auto sway = line_of([&](double time) { return motion.sway(time); }, 2.4);
-    const auto pitch = line_of([&](double time) { return motion.pitch(time); }, 2.4);
+    const auto sway =
+        line_of([&](double time) { return motion.axis(Axis::kSway, time).value; }, 2.4);
+    const auto pitch =
+        line_of([&](double time) { return motion.axis(Axis::kPitch, time).value; }, 2.4);
     EXPECT_NEAR(std::abs(sway), 0.050, 1e-9);
     EXPECT_NEAR(std::abs(pitch), 5.4 * kDegree, 0.3 * kDegree);
     EXPECT_NEAR(std::arg(sway / pitch), 0.64, 0.02);
@@ -87,17 +91,21 @@ TEST(PlatformMotion, HeavyMovesAsTheMeasuredDeckDid) {
 
 TEST(PlatformMotion, LightMovesAsTheMeasuredDeckDid) {
   const PlatformMotion motion("light");
-  const auto sway = line_of([&](double time) { return motion.sway(time); }, 2.0);
-  const auto pitch = line_of([&](double time) { return motion.pitch(time); }, 1.5);
+  const auto sway = line_of([&](double time) { return motion.axis(Axis::kSway, time).value; }, 2.0);
+  const auto pitch =
+      line_of([&](double time) { return motion.axis(Axis::kPitch, time).value; }, 1.5);
   EXPECT_NEAR(std::abs(sway), 0.050, 1e-9);
   EXPECT_NEAR(std::abs(pitch), 2.6 * kDegree, 0.15 * kDegree);
 }
 
 TEST(PlatformMotion, SeedDecidesThePhase) {
   const double time = 5.0;
-  EXPECT_EQ(PlatformMotion("light", 3).sway(time), PlatformMotion("light", 3).sway(time));
-  EXPECT_NE(PlatformMotion("light", 3).sway(time), PlatformMotion("light", 4).sway(time));
-  EXPECT_NE(PlatformMotion("light", 3).sway(time), PlatformMotion("light").sway(time));
+  EXPECT_EQ(PlatformMotion("light", 3).axis(Axis::kSway, time).value,
+            PlatformMotion("light", 3).axis(Axis::kSway, time).value);
+  EXPECT_NE(PlatformMotion("light", 3).axis(Axis::kSway, time).value,
+            PlatformMotion("light", 4).axis(Axis::kSway, time).value);
+  EXPECT_NE(PlatformMotion("light", 3).axis(Axis::kSway, time).value,
+            PlatformMotion("light").axis(Axis::kSway, time).value);
 }
 
 TEST(PlatformMotion, RefusesUnknownPresetAndNamesTheValidOnes) {
@@ -105,7 +113,9 @@ TEST(PlatformMotion, RefusesUnknownPresetAndNamesTheValidOnes) {
     const PlatformMotion motion("stormy");
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "motion is 'stormy', must be one of: none, light, heavy");
+    EXPECT_STREQ(error.what(),
+                 "motion is 'stormy', must be one of: none, light, heavy, as_printed, or a file "
+                 ".yaml or .csv");
   }
 }
 

@@ -3,7 +3,9 @@
 """The simulator node against a stand-in for the framework."""
 import math
 import os
+import re
 import sys
+import tempfile
 import time
 import unittest
 
@@ -179,7 +181,8 @@ class StartTest(unittest.TestCase):
 
 class ParameterTest(unittest.TestCase):
     CATALOGUE = [
-        ("motion", "wild"), ("motion", 3), ("gait", "gallop"), ("seed", -1), ("seed", 1.5),
+        ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"), ("body_motion", "absent.csv"),
+        ("body_motion", 0), ("gait", "gallop"), ("seed", -1), ("seed", 1.5),
         ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
         ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
         ("lockstep", "yes"), ("paused", 1), ("answer_timeout", 0.0),
@@ -195,6 +198,16 @@ class ParameterTest(unittest.TestCase):
             self.assertIn(name, output)
             self.assertEqual(output.count("FATAL"), 1, output)
 
+    def test_refuses_a_motion_beyond_the_platforms_bounds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "storm.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("sway: {sines: [{amplitude: 0.5, rate: 12.6, phase: 0.0}]}")
+            code, output = Simulator(motion=path).wait()
+        self.assertEqual(code, 2, output)
+        self.assertIn("sway amplitude = 0.5 m, must be at most 0.1 m", output)
+        self.assertIn("motion is", output)
+
     def test_requires_every_parameter(self):
         for name in config():
             code, output = Simulator(**{name: None}).wait()
@@ -204,10 +217,12 @@ class ParameterTest(unittest.TestCase):
     def test_requires_a_robot(self):
         urdf = rospy.get_param("robot_description")
         try:
-            for bad in ("", "<robot", "<robot name='none'/>"):
+            weightless = re.sub("<inertial>.*?</inertial>", "", urdf, flags=re.DOTALL)
+            for bad in ("", "<robot", "<robot name='none'/>", weightless):
                 rospy.set_param("robot_description", bad)
                 code, output = Simulator().wait()
                 self.assertEqual(code, 2, output)
+                self.assertIn("robot_description", output)
             rospy.delete_param("robot_description")
             code, output = Simulator().wait()
             self.assertEqual(code, 2, output)

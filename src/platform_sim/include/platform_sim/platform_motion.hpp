@@ -4,44 +4,38 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "platform_sim/frame_state.hpp"
+#include "platform_sim/platform_profile.hpp"
 
 namespace platform_sim {
 
-/// Amplitudes and rates of one preset of the deck's motion.
-struct PlatformMotionParams {
-  double sway_amplitude = 0.0;   ///< m, along y
-  double sway_rate = 0.0;        ///< rad/s
-  double pitch_amplitude = 0.0;  ///< rad, commanded
-  double pitch_rate = 0.0;       ///< rad/s
-  double pitch_phase = 0.0;      ///< rad, lead of the pitch command over the sway at time 0
-};
-
-/// Motion of the deck in world, in closed form. World: the platform frame at rest.
+/// Motion of the deck in world. World: the platform frame at rest. Each axis, in closed form:
 ///
-///   sway(t)   = r(t) A_s sin(w_s (t + t0)),                    r: raised cosine 0 -> 1 in 2 s
-///   command(t)= r(t) A_p sin(w_p (t + t0) + p),   tau dpitch/dt + pitch = command,  pitch(0) = 0
+///   command(t) = r(t) sum_i A_i sin(w_i (t + t0) + p_i),       r: raised cosine 0 -> 1 in 2 s
+///   lag dq/dt + q = command,  q(0) = 0;                        q = command without a lag
 ///
-/// The deck turns about an axis parallel to y, below and behind its centre; positive pitch lowers
-/// the front. At t <= 0 it is at rest. t0 is 0 without a seed, else drawn from it.
+/// or q(t) = r(t) recording(t). The deck goes by (surge, sway, heave) and turns by
+/// Rz(yaw) Ry(pitch) Rx(roll) about a point below and behind its centre; positive pitch lowers the
+/// front. At t <= 0 it is at rest. t0 is 0 without a seed, else drawn from it.
 class PlatformMotion {
  public:
-  /// `preset` is one of preset_names(), else std::invalid_argument which lists them.
-  explicit PlatformMotion(const std::string& preset,
+  /// Throws what find_profile() throws.
+  explicit PlatformMotion(const std::string& preset_or_path,
                           std::optional<std::uint64_t> seed = std::nullopt);
 
-  [[nodiscard]] static const std::vector<std::string>& preset_names();
-
   [[nodiscard]] FrameState deck(double time) const;
-  [[nodiscard]] double sway(double time) const;
-  [[nodiscard]] double sway_velocity(double time) const;
-  [[nodiscard]] double pitch(double time) const;
-  [[nodiscard]] double pitch_velocity(double time) const;
+  /// The deck's robot does not stand: the deck carries its base.
+  [[nodiscard]] bool carries_base() const { return profile_.carries_base; }
+
+  struct AxisState {
+    double value = 0.0;     ///< m or rad
+    double velocity = 0.0;  ///< m/s or rad/s
+  };
+  [[nodiscard]] AxisState axis(Axis axis, double time) const;
 
  private:
-  PlatformMotionParams params_;
+  PlatformProfile profile_;
   double start_phase_time_ = 0.0;  // t0, s
 };
 

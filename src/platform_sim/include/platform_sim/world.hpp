@@ -21,11 +21,14 @@ enum class ArmMode {
 };
 
 struct WorldConfig {
-  std::string motion = "none";   ///< preset of PlatformMotion
+  std::string motion = "none";   ///< preset or file, see find_profile()
+  std::string body_motion;       ///< CSV file: carries base_link over the deck; empty: legs do
   std::string gait = "stand";    ///< one of gait_names()
   std::uint64_t seed = 0;        ///< phase of the platform's motion
   double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
   double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
+  double base_start_y = 0.0;     ///< m
+  double base_start_yaw = 0.0;   ///< rad
   ArmMode arm_mode = ArmMode::kServo;
   ArmVector arm_start = ArmVector::Zero();  ///< rad
   double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
@@ -74,7 +77,7 @@ class World {
 
   /// Contacts since the last call, one per pair of links, in alphabetical order.
   [[nodiscard]] std::vector<Contact> take_contacts();
-  /// The body is low, tipped over, or touches the platform.
+  /// The body is low, tipped over, or touches the platform; never if it is carried.
   [[nodiscard]] bool fallen() const;
 
   /// Servo mode: set-point of the arm, held until the next one. The velocity is a feed-forward

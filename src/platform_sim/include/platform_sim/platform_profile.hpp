@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "platform_sim/recorded_motion.hpp"
+
+namespace platform_sim {
+
+/// Axes of the deck's motion: along x, y, z, m, and about x, y, z, rad.
+inline constexpr std::array<const char*, 6> kAxisNames{"surge", "sway",  "heave",
+                                                       "roll",  "pitch", "yaw"};
+enum class Axis { kSurge, kSway, kHeave, kRoll, kPitch, kYaw };
+
+struct Sine {
+  double amplitude = 0.0;  ///< m or rad
+  double rate = 0.0;       ///< rad/s
+  double phase = 0.0;      ///< rad
+};
+
+/// Command of one axis, a sum of sines, and the first-order lag, s, with which the deck follows it.
+struct AxisProfile {
+  std::vector<Sine> sines;
+  double lag = 0.0;
+};
+
+/// How a deck moves: sines per axis, or a recording with columns named as axes. A robot stands on
+/// its legs unless the deck carries its base.
+///
+/// Bounds, those of a treadmill for rehabilitation on a moving base (M-Gait: 10 deg, 50 mm) with
+/// room: 0.1 m, 0.5 m/s, 2.5 m/s2; 0.18 rad, 0.7 rad/s, 3 rad/s2. If the base is carried: 1 m,
+/// 10 m/s, 150 m/s2; 0.5 rad, 5 rad/s, 50 rad/s2. Of sines the amplitudes count together.
+struct PlatformProfile {
+  std::array<AxisProfile, 6> axes;
+  std::optional<RecordedMotion> recording;
+  bool carries_base = false;
+
+  /// Throws std::invalid_argument with axis, value and bound.
+  void validate() const;
+};
+
+[[nodiscard]] const std::vector<std::string>& preset_names();
+
+/// A preset by its name, or a profile from a file that ends in .yaml (config/profiles has examples)
+/// or .csv (see RecordedMotion); validated. Throws std::invalid_argument that says what is wrong.
+[[nodiscard]] PlatformProfile find_profile(const std::string& preset_or_path);
+
+}  // namespace platform_sim

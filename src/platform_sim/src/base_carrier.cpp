@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base_carrier.hpp"
+
+#include "eigen_bullet.hpp"
+
+namespace platform_sim {
+namespace {
+
+constexpr double kMaxForce = 1e5;  // N or Nm
+constexpr int kBase = -1;          // Bullet's number of a multibody's base
+const std::string kBaseLink = "base_link";
+
+}  // namespace
+
+BaseCarrier::BaseCarrier(BulletScene& scene, RobotModel& robot) : scene_(scene), robot_(robot) {
+  const btTransform base = to_bullet(robot.frame(kBaseLink).pose);
+  const btTransform base_in_centre = robot.multibody().getBaseWorldTransform().inverse() * base;
+  constraint_ = std::make_unique<btMultiBodyFixedConstraint>(
+      &robot.multibody(), kBase, static_cast<btRigidBody*>(nullptr), base_in_centre.getOrigin(),
+      base.getOrigin(), base_in_centre.getBasis(), base.getBasis());
+  constraint_->setMaxAppliedImpulse(kMaxForce * scene.time_step());
+  scene_.world().addMultiBodyConstraint(constraint_.get());
+}
+
+BaseCarrier::~BaseCarrier() { scene_.world().removeMultiBodyConstraint(constraint_.get()); }
+
+// A step removes the share erp of what the constraint sees as its error: it is shown a frame so far
+// ahead that the base arrives.
+void BaseCarrier::move_to(const Eigen::Isometry3d& base) {
+  const Eigen::Isometry3d now = robot_.frame(kBaseLink).pose;
+  const double ahead = 1.0 / scene_.world().getSolverInfo().m_erp;
+  const Eigen::AngleAxisd turn(base.linear() * now.linear().transpose());
+  Eigen::Isometry3d shown = Eigen::Isometry3d::Identity();
+  shown.linear() =
+      Eigen::AngleAxisd(ahead * turn.angle(), turn.axis()).toRotationMatrix() * now.linear();
+  shown.translation() = now.translation() + ahead * (base.translation() - now.translation());
+  const btTransform frame = to_bullet(shown);
+  constraint_->setPivotInB(frame.getOrigin());
+  constraint_->setFrameInB(frame.getBasis());
+}
+
+}  // namespace platform_sim
