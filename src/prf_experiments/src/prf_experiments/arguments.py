@@ -60,6 +60,18 @@ def path():
     return {"valid": "a path", "parse": parse}
 
 
+def choice_or_file(*values, endings):
+    """One of the values, or an existing file with one of the endings."""
+    def parse(text):
+        if text in values:
+            return text
+        file = os.path.abspath(os.path.expanduser(text))
+        if not (file.endswith(endings) and os.path.isfile(file)):
+            raise ValueError
+        return file
+    return {"valid": "|".join([*values, "FILE" + "|FILE".join(endings)]), "parse": parse}
+
+
 def usage(arguments):
     width = max(len(name) for name in arguments) + 2
     return "\n".join(f"  {name + ':=':<{width}} {argument.valid:<24} {argument.meaning}"

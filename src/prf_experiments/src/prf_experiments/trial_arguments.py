@@ -2,14 +2,16 @@
 """The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
 import os
 
-from prf_experiments.arguments import Argument, boolean, choice, integer, number, path, show
+from prf_experiments.arguments import (Argument, boolean, choice, choice_or_file, integer, number,
+                                       path, show)
 
 PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceleration",
               "oscillation", "ekf", "autoregressive", "sines", "hold"]
 
 # Given to trial.launch, and part of every result's name.
 NAMED = {
-    "motion": Argument("light", **choice("none", "light", "heavy"),
+    "motion": Argument("light", **choice_or_file("none", "light", "heavy", "as_printed",
+                                                 endings=(".yaml", ".csv")),
                        meaning="how the platform moves"),
     "gait": Argument("stand", **choice("stand", "step"), meaning="what the legs do"),
     "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
@@ -21,6 +23,8 @@ NAMED = {
 # Given to trial.launch, and named where they are not the default.
 LAUNCHED = {
     **NAMED,
+    "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
+                            meaning="recorded motion of the body over the deck"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
     "predictor": Argument("ukf", **choice(*PREDICTORS),
@@ -46,5 +50,6 @@ def words(values):
 
 def name(values):
     """Name of a trial, the same for the same arguments; good for a folder."""
-    short = {**values, "demonstration": os.path.basename(values["demonstration"] or "") or None}
+    short = {**values, "demonstration": os.path.basename(values["demonstration"] or "") or None,
+             **{key: os.path.basename(values[key]) for key in ("motion", "body_motion")}}
     return "_".join(word.replace(":=", "-") for word in words(short))

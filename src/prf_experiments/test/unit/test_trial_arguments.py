@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from prf_experiments import arguments as args
@@ -22,6 +23,15 @@ class TrialArguments(unittest.TestCase):
             "_seed-1_decision-forward_demonstration-wipe.csv"))
         self.assertEqual(args.parse(trial_arguments.words(values), trial_arguments.TRIAL),
                          self.values("decision:=forward", "demonstration:=/skills/wipe.csv"))
+
+    def test_a_motion_is_a_preset_or_a_file_that_exists(self):
+        with tempfile.NamedTemporaryFile(suffix=".csv") as file:
+            values = self.values(f"motion:={file.name}", f"body_motion:={file.name}")
+            self.assertEqual(values["motion"], file.name)
+            self.assertNotIn("/", trial_arguments.name(values))
+        for word in ("motion:=wild", "motion:=absent.yaml", "body_motion:=absent.csv"):
+            with self.assertRaises(args.ArgumentError):
+                self.values(word)
 
     def test_lists_are_parsed_value_by_value(self):
         self.assertEqual(args.parse_lists(["seed:=3,5", "framework:=false"], trial_arguments.TRIAL),
