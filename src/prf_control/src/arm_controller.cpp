@@ -13,7 +13,9 @@ namespace {
 
 ControlCode code_of(const FollowerStep& step) {
   if (step.goal == GoalKind::kNearest) return ControlCode::kUnreachable;
-  if (step.goal == GoalKind::kJumpRefused) return ControlCode::kLimited;
+  if (step.goal == GoalKind::kJumpRefused || step.goal == GoalKind::kChangesBranch) {
+    return ControlCode::kLimited;
+  }
   const bool slowed =
       step.motion.limit == Limit::kVelocity || step.motion.limit == Limit::kPosition;
   return slowed ? ControlCode::kLimited : ControlCode::kFollowing;
@@ -140,6 +142,7 @@ void ArmController::serve(const JoinedTick& tick, double dt, Answer& answer) {
 void ArmController::follow(const PoseSetpoint& setpoint, double dt, Answer& answer) {
   const FollowerStep step = follower_.follow(setpoint, dt);
   if (step.goal == GoalKind::kJumpRefused) ++counts_.refused_jumps;
+  if (step.goal == GoalKind::kChangesBranch) ++counts_.branch_changing;
   answer.code = code_of(step);
   answer.deviation = step.position_deviation;
   if (answer.code != ControlCode::kFollowing) answer.reason = describe(step);
@@ -153,6 +156,9 @@ std::string ArmController::describe(const FollowerStep& step) const {
   } else if (step.goal == GoalKind::kJumpRefused) {
     text << name(step.jump_joint) << " would jump by " << step.jump << " rad, bound "
          << params_.follower.max_joint_step << " rad; creeps toward the pose";
+  } else if (step.goal == GoalKind::kChangesBranch) {
+    text << "changes branch slowly, " << name(step.jump_joint) << " has " << step.jump
+         << " rad to go";
   } else {
     const bool position = step.motion.limit == Limit::kPosition;
     text << name(step.motion.joint) << (position ? " near its position limit, " : " ") << "asked "

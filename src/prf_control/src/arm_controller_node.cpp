@@ -87,6 +87,7 @@ class ArmControllerNode {
     out.add("joint_states not finite", counts.faulty_joints);
     out.add("joint_states of one stamp", joiner.duplicate_ticks);
     out.add("jumps refused", counts.refused_jumps);
+    out.add("ticks of slow changes of branch", counts.branch_changing);
     out.add("starts from measured joints", counts.restarts);
     out.add("runs begun by going back in time", joiner.new_runs);
     out.add("longest answer [ms]", 1e3 * longest_answer_);

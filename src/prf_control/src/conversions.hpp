@@ -38,6 +38,7 @@ inline NodeParams read_params(const ros::NodeHandle& private_handle) {
   follower.far_orientation = values.number("far_orientation");
   follower.damping = values.number("damping");
   follower.orientation_weight = values.number("orientation_weight");
+  follower.branch_patience = values.number("branch_patience");
   params.controller.max_tracking_error = values.number("max_tracking_error");
   params.controller.max_wait = values.number("max_wait");
   params.controller.joint_prefix = values.text("joint_prefix");

@@ -15,6 +15,8 @@ using jaco_v60_description::IkResult;
 using jaco_v60_description::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
+constexpr double kArrived = 0.02;  // [rad] of every joint: the change of branch is over
+
 void check(const char* name, double value, double bound, const char* unit) {
   if (!(std::isfinite(value) && value > 0.0 && value <= bound)) {
     throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + unit +
@@ -58,6 +60,7 @@ void FollowerParams::validate() const {
   check("far_orientation", far_orientation, M_PI, " rad");
   check("damping", damping, 1.0, "");
   check("orientation_weight", orientation_weight, 10.0, " m/rad");
+  check("branch_patience", branch_patience, 1e6, " s");
 }
 
 SetpointFollower::SetpointFollower(const FollowerParams& params) : params_(params) {
@@ -74,8 +77,14 @@ void SetpointFollower::start(const JointVector& measured) {
 
 void SetpointFollower::reset() {
   state_.reset();
+  forget_set_points();
+}
+
+void SetpointFollower::forget_set_points() {
   goal_.reset();
   last_pose_.reset();
+  refused_for_ = 0;
+  changes_branch_ = false;
 }
 
 FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
@@ -84,7 +93,9 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
   step.goal = goal.kind;
   step.jump_joint = goal.jump_joint;
   step.jump = goal.jump;
-  step.motion = step_toward(state(), goal.motion, dt, limits_);
+  MotionLimits limits = limits_;
+  if (goal.kind == GoalKind::kChangesBranch) limits.velocity *= kBranchChangeSpeed;
+  step.motion = step_toward(state(), goal.motion, dt, limits);
   const ErrorVector deviation =
       pose_error(jaco_v60_description::forward(step.motion.state.position), setpoint.hand_in_base);
   step.position_deviation = deviation.head<3>().norm();
@@ -100,13 +111,11 @@ FollowerStep SetpointFollower::hold(double dt) {
   FollowerStep step;
   step.motion = step_to_rest(state(), dt, limits_);
   state_ = step.motion.state;
-  goal_.reset();
-  last_pose_.reset();
+  forget_set_points();
   return step;
 }
 
-SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoint,
-                                                     double dt) const {
+SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoint, double dt) {
   const Eigen::Isometry3d& pose = setpoint.hand_in_base;
   const bool far = is_far(pose);
   const JointVector reference = far || !goal_ ? state().position : *goal_;
@@ -118,10 +127,16 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
 
   int joint = 0;
   const double jump = (q - reference).cwiseAbs().maxCoeff(&joint);
-  if (!far && jump > params_.max_joint_step) {
+  const bool refused = !far && jump > params_.max_joint_step;
+  refused_for_ = refused ? refused_for_ + dt : 0;
+  if (refused && refused_for_ < params_.branch_patience) {
     const JointVector crept = damped_step(pose, reference, dt);
-    return {GoalKind::kJumpRefused, {crept, (crept - reference) / dt}, joint, jump};
+    const auto kind = changes_branch_ ? GoalKind::kChangesBranch : GoalKind::kJumpRefused;
+    return {kind, {crept, (crept - reference) / dt}, joint, jump};
   }
+  const double to_go = (q - state().position).cwiseAbs().maxCoeff(&joint);
+  changes_branch_ = (refused || changes_branch_) && !far && to_go > kArrived;
+  if (changes_branch_) return {GoalKind::kChangesBranch, {q, JointVector::Zero()}, joint, to_go};
   if (!solved) return {GoalKind::kNearest, {q, JointVector::Zero()}, -1, 0.0};
   return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt)}, -1, 0.0};
 }

@@ -11,7 +11,8 @@ import rostest
 
 NAN, INF = float('nan'), float('inf')
 POSITIVE = ['velocity_scale', 'acceleration', 'max_joint_step', 'far_position', 'far_orientation',
-            'damping', 'orientation_weight', 'max_tracking_error', 'max_wait']
+            'damping', 'orientation_weight', 'branch_patience', 'max_tracking_error',
+            'max_wait']
 CATALOGUE = (
     [(name, value) for name in POSITIVE for value in (0.0, -1.0, NAN, INF, 'much')] +
     [('velocity_scale', 1.1), ('max_wait', 11.0), ('max_tracking_error', 4.0)] +

@@ -19,7 +19,7 @@ constexpr double kDt = 0.01;
 
 ArmControllerParams params() {
   ArmControllerParams params{};
-  params.follower = {0.95, 4.0, 0.3, 0.1, 0.5, 0.1, 0.2};
+  params.follower = {0.95, 4.0, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0};
   params.max_tracking_error = 0.2;
   params.max_wait = 0.3;
   params.joint_prefix = "joint_";

@@ -47,6 +47,7 @@ struct ControllerCounts {
   std::uint64_t faulty_joints = 0;
   std::uint64_t invalid_setpoints = 0;
   std::uint64_t refused_jumps = 0;
+  std::uint64_t branch_changing = 0;  // ticks
   std::uint64_t restarts = 0;
 };
 

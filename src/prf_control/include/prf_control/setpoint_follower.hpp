@@ -4,7 +4,8 @@
 //   goal      q_g = inverse(T), the solution nearest to the last goal;
 //             T out of reach: the nearest pose (nearest_pose.hpp);
 //             a jump of a joint by more than max_joint_step, though T moved little (a change of
-//             branch): refused, the goal takes a damped step along the Jacobian instead
+//             branch): refused, the goal takes a damped step along the Jacobian instead; refused
+//             for branch_patience without a break: made after all, at kBranchChangeSpeed
 //   velocity  dq_g = (q_g - inverse(T moved back by its twist)) / dt
 //   command   the step of joint_motion.hpp toward (q_g, dq_g)
 //
@@ -28,9 +29,13 @@ struct FollowerParams {
   double far_orientation;     // [rad], > 0, < pi; likewise
   double damping;             // of the Jacobian step, (0, 1]
   double orientation_weight;  // [m/rad], > 0; see nearest_pose.hpp
+  double branch_patience;     // [s], > 0; for which a change of branch is refused
 
   void validate() const;
 };
+
+// Share of the velocity limits that a change of branch may use: the hand leaves its path meanwhile.
+inline constexpr double kBranchChangeSpeed = 0.25;
 
 struct PoseSetpoint {
   Eigen::Isometry3d hand_in_base = Eigen::Isometry3d::Identity();
@@ -39,10 +44,11 @@ struct PoseSetpoint {
 };
 
 enum class GoalKind {
-  kExact,        // forward(goal) is the set-point
-  kNearest,      // out of reach or limits, the goal is the nearest pose
-  kJumpRefused,  // a change of branch refused, the goal creeps toward the set-point
-  kRest          // hold
+  kExact,          // forward(goal) is the set-point
+  kNearest,        // out of reach or limits, the goal is the nearest pose
+  kJumpRefused,    // a change of branch refused, the goal creeps toward the set-point
+  kChangesBranch,  // on the way to another branch, slowly
+  kRest            // hold
 };
 
 struct FollowerStep {
@@ -50,7 +56,7 @@ struct FollowerStep {
   LimitedStep motion;                // the command, and what slowed it
   double position_deviation = 0;     // [m], set-point to forward(command); 0 when holding
   double orientation_deviation = 0;  // [rad]
-  int jump_joint = -1;               // the joint whose jump was refused
+  int jump_joint = -1;               // the joint whose jump was refused, or farthest to go
   double jump = 0;                   // [rad]
 };
 
@@ -70,7 +76,8 @@ class SetpointFollower {
 
  private:
   struct Goal;
-  Goal choose_goal(const PoseSetpoint& setpoint, double dt) const;
+  Goal choose_goal(const PoseSetpoint& setpoint, double dt);
+  void forget_set_points();
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
   JointVector damped_step(const Eigen::Isometry3d& hand_in_base, const JointVector& from,
                           double dt) const;
@@ -81,6 +88,8 @@ class SetpointFollower {
   std::optional<MotionState> state_;
   std::optional<JointVector> goal_;             // of the last follow(), none after a hold
   std::optional<Eigen::Isometry3d> last_pose_;  // the last set-point, none after a hold
+  double refused_for_ = 0;                      // [s], a change of branch, without a break
+  bool changes_branch_ = false;
 };
 
 }  // namespace prf_control

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far the hand is from a swaying target: arm controller and a stand-in for the arm, without a
+// ROS graph. At each tick the set-point is where the target is `lead` later, with its velocity.
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "prf_control/arm_controller.hpp"
+#include "prf_control/nearest_pose.hpp"
+#include "servo_arm.hpp"
+
+namespace prf_control {
+namespace {
+
+using jaco_v60_description::forward;
+
+struct Options {
+  double amplitude = 0.05;  // m, along y of the arm's base
+  double lead = 0.02;       // s
+  double acceleration = 4;  // rad/s^2
+  double velocity_scale = 0.95;
+  std::string json;
+  bool help = false;
+};
+
+struct Sine {
+  double amplitude;  // m
+  double frequency;  // rad/s
+};
+using Sway = std::vector<Sine>;
+
+struct Row {
+  std::string target;
+  double frequency;       // rad/s, of the first sine
+  double rms, p95, most;  // m
+  double orientation;     // rad, the greatest
+  double lag;             // s, of the first sine; negative: ahead
+  double limited;         // share of the ticks
+  bool within_limits;     // every command
+};
+
+JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
+
+ArmControllerParams parameters(const Options& options) {
+  return {{options.velocity_scale, options.acceleration, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0},
+          0.2,
+          0.3,
+          "joint_"};
+}
+
+PoseSetpoint target_at(const Sway& sway, double time) {
+  PoseSetpoint target;
+  target.hand_in_base = forward(home());
+  for (const auto& [amplitude, frequency] : sway) {
+    target.hand_in_base.translation().y() += amplitude * std::sin(frequency * time);
+    target.linear_velocity.y() += amplitude * frequency * std::cos(frequency * time);
+  }
+  return target;
+}
+
+// The part of the signal at one frequency: its share in phase and in quadrature.
+struct Phasor {
+  double in_phase = 0;
+  double quadrature = 0;
+
+  void add(double value, double phase) {
+    in_phase += value * std::sin(phase);
+    quadrature += value * std::cos(phase);
+  }
+};
+
+bool keeps_limits(const MotionState& before, const MotionState& after, const Options& options) {
+  constexpr double kRounding = 1e-9;
+  const auto& limits = jaco_v60_description::jaco_joint_limits();
+  const JointVector change = (after.velocity - before.velocity) / ServoArm::kPeriod;
+  return ((after.velocity.cwiseAbs() - options.velocity_scale * limits.velocity).maxCoeff() <=
+          kRounding) &&
+         change.cwiseAbs().maxCoeff() <= options.acceleration + 1e2 * kRounding &&
+         (after.position - limits.lower).minCoeff() >= 0 &&
+         (limits.upper - after.position).minCoeff() >= 0;
+}
+
+// One period to settle, four to measure.
+Row measure(const std::string& name, const Sway& sway, const Options& options) {
+  ArmController controller(parameters(options));
+  ServoArm arm{home()};
+  const double frequency = sway.front().frequency;
+  const double middle = forward(home()).translation().y();
+  const int ticks = static_cast<int>(5 * 2 * M_PI / frequency / ServoArm::kPeriod);
+  Row row{name, frequency, 0, 0, 0, 0, 0, 0, true};
+  std::vector<double> errors;
+  Phasor hand;
+  MotionState before{home(), JointVector::Zero()};
+  for (int i = 0; i < ticks; ++i) {
+    const double now = i * ServoArm::kPeriod;
+    Setpoint setpoint;
+    setpoint.kind = SetpointKind::kPose;
+    setpoint.pose = target_at(sway, now + options.lead);
+    const std::int64_t stamp = static_cast<std::int64_t>(i) * 10000000;
+    controller.add_joints({stamp, arm.position, ""});
+    const Answer answer = controller.add_setpoint(stamp, setpoint).front();
+    row.within_limits = row.within_limits && keeps_limits(before, answer.command, options);
+    before = answer.command;
+    arm.run(answer.command);
+    if (i < ticks / 5) continue;
+    const double later = now + ServoArm::kPeriod;
+    const auto error = pose_error(forward(arm.position), target_at(sway, later).hand_in_base);
+    errors.push_back(error.head<3>().norm());
+    row.orientation = std::max(row.orientation, error.tail<3>().norm());
+    hand.add(forward(arm.position).translation().y() - middle, frequency * later);
+    row.limited += answer.code == ControlCode::kFollowing ? 0 : 1;
+  }
+  std::sort(errors.begin(), errors.end());
+  const double count = static_cast<double>(errors.size());
+  for (const double error : errors) row.rms += error * error / count;
+  row.rms = std::sqrt(row.rms);
+  row.p95 = errors[static_cast<std::size_t>(0.95 * (count - 1))];
+  row.most = errors.back();
+  row.lag = -std::atan2(hand.quadrature, hand.in_phase) / frequency;
+  row.limited /= count;
+  return row;
+}
+
+std::vector<Row> run(const Options& options) {
+  std::vector<Row> rows;
+  for (const double frequency : {0.5, 1.0, 2.0, 3.0}) {
+    rows.push_back(measure("sway", {{options.amplitude, frequency}}, options));
+  }
+  const double a = options.amplitude;
+  rows.push_back(measure("sway, steps at 12 rad/s", {{a, 2.4}, {0.2 * a, 12.0}}, options));
+  return rows;
+}
+
+void print_table(const std::vector<Row>& rows) {
+  std::printf("%-24s%7s%9s%9s%9s%10s%9s%9s%11s%9s\n", "target", "rad/s", "rms mm", "p95 mm",
+              "max mm", "max deg", "lag ms", "lag deg", "limited %", "limits");
+  for (const Row& row : rows) {
+    std::printf("%-24s%7.1f%9.2f%9.2f%9.2f%10.3f%9.2f%9.2f%11.1f%9s\n", row.target.c_str(),
+                row.frequency, 1e3 * row.rms, 1e3 * row.p95, 1e3 * row.most,
+                row.orientation * 180 / M_PI, 1e3 * row.lag, row.lag * row.frequency * 180 / M_PI,
+                100 * row.limited, row.within_limits ? "kept" : "BROKEN");
+  }
+}
+
+void write_json(const std::vector<Row>& rows, const Options& options) {
+  std::ofstream file(options.json);
+  file.precision(9);
+  file << "{\"amplitude_m\": " << options.amplitude << ", \"lead_s\": " << options.lead
+       << ", \"acceleration_rad_per_s2\": " << options.acceleration
+       << ", \"velocity_scale\": " << options.velocity_scale << ", \"rows\": [";
+  for (const Row& row : rows) {
+    file << (&row == &rows.front() ? "\n" : ",\n") << " {\"target\": \"" << row.target
+         << "\", \"frequency_rad_per_s\": " << row.frequency
+         << ", \"rms_position_error_m\": " << row.rms << ", \"p95_position_error_m\": " << row.p95
+         << ", \"max_position_error_m\": " << row.most
+         << ", \"max_orientation_error_rad\": " << row.orientation << ", \"lag_s\": " << row.lag
+         << ", \"limited_share\": " << row.limited
+         << ", \"within_limits\": " << (row.within_limits ? "true" : "false") << "}";
+  }
+  file << "\n]}\n";
+  if (!file.flush()) throw std::invalid_argument("--json " + options.json + " cannot be written");
+}
+
+double bounded(const std::string& name, const std::string& text, double least, double most) {
+  std::size_t end = 0;
+  double value = std::nan("");
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+  }
+  if (end != text.size() || !(value >= least && value <= most)) {
+    throw std::invalid_argument(name + " is " + text + ", must be " + std::to_string(least) +
+                                " .. " + std::to_string(most));
+  }
+  return value;
+}
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--help" || name == "-h") {
+      std::puts(
+          "usage: tracking_error [--amplitude M] [--lead S] [--acceleration RAD_S2]\n"
+          "                      [--velocity-scale SHARE] [--json FILE]\n"
+          "How far the hand is from a target that sways sideways, for four frequencies.");
+      options.help = true;
+      return options;
+    }
+    if (i + 1 == argc) throw std::invalid_argument(name + " lacks its value, or is unknown");
+    const std::string value = argv[++i];
+    if (name == "--amplitude") {
+      options.amplitude = bounded(name, value, 1e-6, 0.3);
+    } else if (name == "--lead") {
+      options.lead = bounded(name, value, 0, 1);
+    } else if (name == "--acceleration") {
+      options.acceleration = bounded(name, value, 1e-3, 100);
+    } else if (name == "--velocity-scale") {
+      options.velocity_scale = bounded(name, value, 1e-3, 1);
+    } else if (name == "--json") {
+      options.json = value;
+    } else {
+      throw std::invalid_argument("unknown argument " + name);
+    }
+  }
+  return options;
+}
+
+}  // namespace
+}  // namespace prf_control
+
+int main(int argc, char** argv) {
+  using namespace prf_control;
+  try {
+    const Options options = read_options(argc, argv);
+    if (options.help) return 0;
+    const std::vector<Row> rows = run(options);
+    print_table(rows);
+    if (!options.json.empty()) write_json(rows, options);
+  } catch (const std::exception& error) {
+    std::cerr << "tracking_error: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
