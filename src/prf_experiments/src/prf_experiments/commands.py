@@ -59,7 +59,7 @@ def inspect_main(words):
 
 
 def report_main(words):
-    from prf_experiments import report  # matplotlib takes its time
+    from prf_experiments import pictures, report  # matplotlib takes its time
     parser = argparse.ArgumentParser(prog="report", description="Draws the report of a trial.")
     parser.add_argument("bag")
     parser.add_argument("out", help="HTML file to write")
@@ -73,7 +73,8 @@ def report_main(words):
         skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
                  or session.packaged("demonstrations", "inspect_box.csv"))
         report.write(options.out, options.bag, data, {**verdict.as_json(), **description},
-                     demonstration.read(skill))
+                     demonstration.read(skill),
+                     pictures.of(options.bag, data, verdict.figures) if verdict.figures else "")
         print(options.out)
         return 0
     return session.guarded("report", action)

@@ -11,10 +11,12 @@ h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
 table { border-collapse: collapse; } td, th { padding: .15em 1em .15em 0; text-align: left;
         vertical-align: top; border-bottom: 1px solid #ccc; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
-code, pre { background: #f2f2f2; padding: .1em .3em; } pre { white-space: pre-wrap; padding: .6em; }
+code, pre { background: #f2f2f2; padding: .1em .3em; }
+pre { white-space: pre-wrap; padding: .6em; }
 pre.wide { white-space: pre; overflow-x: auto; font-size: .85em; }
 svg, img { max-width: 100%; height: auto; }
-figure { display: inline-block; margin: 0 .6em .6em 0; } figcaption { font-size: .85em; }
+figure { display: inline-block; width: 20em; margin: 0 .6em .6em 0; }
+figcaption { font-size: .85em; }
 a.test { display: inline-block; min-width: 1.3em; padding: 0 .15em; margin: 1px; color: #111;
          text-align: center; text-decoration: none; border: 1px solid #111; }
 a.test.P { border-style: dashed; } a.test.F { background: #111; color: #fff; }

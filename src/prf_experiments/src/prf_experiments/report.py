@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A trial's report: one HTML file that needs nothing else."""
+import contextlib
 import html
+import os
 
 import numpy as np
 
@@ -45,8 +47,8 @@ def draw(bag, data, demonstrated):
     ]
 
 
-def parts(content, data, drawings):
-    """Body of a trial's page. `content` is what verdict.json holds."""
+def parts(content, data, drawings, scene="", parameters=""):
+    """Body of a trial's page. `content` is what verdict.json holds, `scene` is HTML."""
     verdict = content["verdict"]
     pairs = content["figures"].get("largest_contact_by_pair_n", {})
     measures = [(name, value) for name, value in content["figures"].items()
@@ -59,6 +61,8 @@ def parts(content, data, drawings):
         f"{html.escape(content['reason'])}</p>",
         f"<pre>{html.escape(content.get('command', ''))}</pre>",
     ]
+    if scene:
+        body += ["<h2>Scene</h2>", scene]
     for title, text, drawing in drawings:
         body += [f"<h2>{title}</h2><p>{text}</p>", drawing]
     if data is not None:
@@ -72,12 +76,20 @@ def parts(content, data, drawings):
     body += ["<h2>Arguments and versions</h2>",
              page.table([*content.get("arguments", {}).items(),
                          *content.get("versions", {}).items()])]
+    if parameters:
+        body += ["<details><summary>Parameters of all nodes</summary><pre>"
+                 f"{html.escape(parameters)}</pre></details>"]
     return body
 
 
-def write(path, bag, data, content, demonstrated):
+def write(path, bag, data, content, demonstrated, scene=""):
     """Writes the report of a trial; `data` is None when the recording could not be read."""
+    parameters = ""
+    with contextlib.suppress(OSError), \
+            open(os.path.join(os.path.dirname(bag), "parameters.yaml"), encoding="utf-8") as stream:
+        parameters = stream.read()
     drawn = data is not None and content["verdict"] != "INVALID"
     with open(path, "w", encoding="utf-8") as stream:
         drawings = draw(bag, data, demonstrated) if drawn else []
-        stream.write(page.whole("Trial " + content["verdict"], parts(content, data, drawings)))
+        stream.write(page.whole("Trial " + content["verdict"],
+                                parts(content, data, drawings, scene, parameters)))

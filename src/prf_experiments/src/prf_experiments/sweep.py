@@ -111,7 +111,7 @@ class Board:
     def tell(self, values, content):
         self._done += 1
         self._counts[content["verdict"]] = self._counts.get(content["verdict"], 0) + 1
-        again = ", second attempt" if content["attempts"] > 1 else ""
+        again = "".join(f", after {reason}" for reason in content["failed_attempts"])
         self._write(f"{self._kept + self._done}/{self._total} {content['verdict']:<7} "
                     f"{trial_arguments.name(values)}: {content['reason']} "
                     f"({content['disk_bytes'] / MEGABYTE:.0f} MB{again})")

@@ -6,6 +6,7 @@ Other tables of verdicts differ in their axes only; a summary says which ones it
 import itertools
 
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from prf_experiments import figures, page, statistics
 from prf_experiments.study import Study, cell, letters, test_link, values
@@ -14,7 +15,7 @@ AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
         "framework": [False, True]}
 ORDER = ("framework", "motion", "gait")
 VERDICTS = ("S", "P", "F", "INVALID")
-SHADES = {"S": ("white", ""), "P": ("0.8", "///"), "F": ("0.15", ""), "INVALID": ("white", "xx")}
+SHADES = {"S": ("0.82", ""), "P": ("white", "////"), "F": ("0.1", ""), "INVALID": ("white", "xx")}
 
 
 def cells(results, axes):
@@ -104,6 +105,7 @@ def counts_figure(summary):
                   linewidth=0.8, label=verdict)
         left = [before + count for before, count in zip(left, counts)]
     axes.invert_yaxis()
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_xlabel("trials", fontsize=9)
     axes.tick_params(labelsize=8)
     axes.legend(ncols=4, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))

@@ -55,7 +55,7 @@ def simulate(run, description):
 
 def evaluate(folder, description, wall, failure, progress):
     """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
-    from prf_experiments import report  # matplotlib takes its time
+    from prf_experiments import pictures, report  # matplotlib takes its time
     bag, data = os.path.join(folder, "trial.bag"), None
     verdict = judge.invalid(failure)
     if not failure:
@@ -72,8 +72,9 @@ def evaluate(folder, description, wall, failure, progress):
         json.dump(content, stream, indent=2)
         stream.write("\n")
     progress.show("drawing the report", always=True)
+    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else ""
     report.write(os.path.join(folder, "report.html"), bag, data, content,
-                 demonstration.read(skill(description["arguments"])))
+                 demonstration.read(skill(description["arguments"])), scene)
     progress.close()
     return content
 

@@ -105,18 +105,19 @@ def keeps(keep_bags, verdict):
 
 def execute(values, folder, keep_bags, attempt=run_process):
     """The trial `values` into `folder`, repeated once when INVALID. Returns its verdict.json."""
-    part, failed = folder + ".part", folder + ".failed"
+    part, failed, reasons = folder + ".part", folder + ".failed", []
     for number in range(1, ATTEMPTS + 1):
         shutil.rmtree(part, ignore_errors=True)
         content = attempt(values, part)
         if content["verdict"] != "INVALID" or number == ATTEMPTS:
             break
+        reasons.append(content["reason"])
         shutil.rmtree(failed, ignore_errors=True)
         os.rename(part, failed)
     bag = os.path.join(part, "trial.bag")
     if os.path.exists(bag) and not keeps(keep_bags, content["verdict"]):
         os.remove(bag)
-    content = {**content, "attempts": number, "disk_bytes": size(part)}
+    content = {**content, "failed_attempts": reasons, "disk_bytes": size(part)}
     with open(os.path.join(part, "verdict.json"), "w", encoding="utf-8") as stream:
         json.dump(content, stream, indent=2)
         stream.write("\n")

@@ -9,4 +9,4 @@ DEFAULTS = args.parse([], trial_arguments.LAUNCHED)
 def result(verdict="S", inspected=True, figures=None, **arguments):
     return {"verdict": verdict, "inspected": inspected, "reason": "made <up>",
             "figures": figures or {}, "arguments": {**DEFAULTS, **arguments},
-            "attempts": 1, "disk_bytes": 1_000_000}
+            "failed_attempts": [], "disk_bytes": 1_000_000}

@@ -10,7 +10,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(__file__))
 import synthetic  # noqa: E402
-from prf_experiments import demonstration, geometry, judge, recording, report  # noqa: E402
+from prf_experiments import (demonstration, geometry, judge, page, pictures,  # noqa: E402
+                             recording, report)
 
 VOID = {"meta", "br", "hr", "img"}
 SKILL = demonstration.Demonstration(
@@ -45,13 +46,13 @@ class Balance(HTMLParser):
 class Report(unittest.TestCase):
     def write(self, data, verdict=None):
         with tempfile.TemporaryDirectory() as folder:
-            bag, page = os.path.join(folder, "trial.bag"), os.path.join(folder, "report.html")
+            bag, out = os.path.join(folder, "trial.bag"), os.path.join(folder, "report.html")
             synthetic.write_bag(bag, data)
             read = recording.read(bag)
             content = {**(verdict or judge.judge(read)).as_json(), "command": "run <this> & that",
                        "arguments": {"seed": 1}, "versions": {"python": "3"}, "wall_time_s": 4.2}
-            report.write(page, bag, read, content, SKILL)
-            with open(page, encoding="utf-8") as stream:
+            report.write(out, bag, read, content, SKILL)
+            with open(out, encoding="utf-8") as stream:
                 return stream.read()
 
     def assert_sound(self, text):
@@ -85,6 +86,23 @@ class Report(unittest.TestCase):
         text = self.write(synthetic.make_recording(1.0), judge.invalid("the recorder <died>"))
         self.assert_sound(text)
         self.assertIn("no evidence: the recorder &lt;died&gt;", re.sub("<[^>]*>", "", text))
+
+    def test_shows_the_scene_and_the_parameters_of_the_nodes(self):
+        content = judge.invalid("cut").as_json()
+        text = page.whole("Trial", report.parts(content, None, [], "<p>a picture</p>",
+                                                "decision: {lead: <0.02>}"))
+        self.assert_sound(text)
+        self.assertIn("<h2>Scene</h2>\n<p>a picture</p>", text)
+        self.assertIn("decision: {lead: &lt;0.02&gt;}", text)
+
+    def test_key_frames_are_taken_at_the_moments_that_matter(self):
+        data = synthetic.make_recording(4.0)
+        pair = ("box", "camera_link")
+        data.contacts = [recording.Contact(int(data.ticks[row]), pair, force)
+                         for row, force in ((150, 2.0), (250, 7.5), (300, 3.0))]
+        self.assertEqual(pictures.moments(data, judge.judge(data).figures), [
+            (0.0, "the start"), (1.0, "reached"), (2.5, "largest contact, 7.5 N"),
+            (4.0, "the end")])
 
     def test_is_the_same_text_for_the_same_trial(self):
         data = synthetic.make_recording(1.0)

@@ -99,7 +99,8 @@ class Sweep(unittest.TestCase):
         attempt = Attempts(what)
         results = self.run_sweep(attempt, seeds=(1,))
         self.assertEqual([result["verdict"] for result in results], ["P", "INVALID"])
-        self.assertEqual([result["attempts"] for result in results], [2, 2])
+        self.assertEqual([result["failed_attempts"] for result in results],
+                         [["made up"], ["made up"]])
         self.assertEqual(len(attempt.asked), 4)
         again = Attempts()
         self.run_sweep(again, seeds=(1,))
@@ -153,7 +154,7 @@ class Board(unittest.TestCase):
         now, out = [100.0], io.StringIO()
         board = sweep.Board(12, 2, out, lambda: now[0])
         self.assertIsNone(board.left())
-        content = {**verdict(DEFAULTS), "attempts": 1, "disk_bytes": 12_345_678}
+        content = {**verdict(DEFAULTS), "failed_attempts": [], "disk_bytes": 12_345_678}
         for _ in range(4):
             now[0] += 60.0
             board.tell(DEFAULTS, content)
