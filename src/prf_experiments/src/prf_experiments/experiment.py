@@ -72,8 +72,8 @@ def parser():
 
 
 def default_jobs():
-    """A trial keeps about two processors busy, but not while its nodes start or it is judged."""
-    return max(1, round(0.75 * len(os.sched_getaffinity(0))))
+    """One for each processor: a trial uses about one on average, since its nodes take turns."""
+    return len(os.sched_getaffinity(0))
 
 
 def parse(words):
