@@ -16,6 +16,8 @@ AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
 ORDER = ("framework", "motion", "gait")
 VERDICTS = ("S", "P", "F", "INVALID")
 SHADES = {"S": ("0.82", ""), "P": ("white", "////"), "F": ("0.1", ""), "INVALID": ("white", "xx")}
+MARK = {"color": "black", "marker": "|", "markersize": 12, "linestyle": "none",
+        "markeredgewidth": 1.6, "alpha": 0.8}
 
 
 def cells(results, axes):
@@ -91,12 +93,35 @@ def text(summary):
     return aligned(rows)
 
 
+def labels_of(summary):
+    return [", ".join(shown(name, item[name]) for name in summary["axes"])
+            for item in summary["cells"]]
+
+
+def distance_figure(summary, results):
+    """One mark for each trial: how far the tag was off the axis while tracking."""
+    labels = labels_of(summary)
+    figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(labels)), layout="constrained")
+    axes = figure.subplots()
+    for line, (_, found) in enumerate(cells(results, summary["axes"])):
+        off = [result["figures"].get("tracking_lateral_mean_mm") for result in found]
+        off = [value for value in off if value is not None]
+        axes.plot(off, [line] * len(off), **MARK)
+    axes.set_yticks(range(len(labels)), labels)
+    axes.set_ylim(len(labels) - 0.5, -0.5)
+    axes.set_xlim(left=0.0)
+    axes.grid(True, color="0.88", linewidth=0.6)
+    axes.set_xlabel("mean distance of the tag's centre from the optical axis while tracking, mm",
+                    fontsize=9)
+    axes.tick_params(labelsize=8)
+    return figures.svg(figure, "Distance of the tag from the optical axis in each trial")
+
+
 def counts_figure(summary):
     """Stacked counts of each cell; told apart by lightness and hatching."""
-    found = summary["cells"]
+    found, labels = summary["cells"], labels_of(summary)
     figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(found)), layout="constrained")
     axes = figure.subplots()
-    labels = [", ".join(shown(name, item[name]) for name in summary["axes"]) for item in found]
     left = [0] * len(found)
     for verdict in VERDICTS:
         counts = [item["counts"][verdict] for item in found]
@@ -121,6 +146,7 @@ def parts(summary, results, _folder):
     return ["<h2>Each test</h2><p>Every letter leads to its trial.</p>",
             page.table(linked, (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)")),
             "<h2>Counts</h2>", counts_figure(summary),
+            "<h2>Distances</h2>", distance_figure(summary, results),
             "<p>S success, P partial success, F failure, × no evidence. Rates are of the valid "
             "trials, with Wilson's 95 % interval. Off axis: mean distance of the tag's centre from "
             "the optical axis while tracking. Contact: the largest of arm, hand or camera.</p>"]

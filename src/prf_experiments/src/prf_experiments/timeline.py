@@ -186,8 +186,13 @@ def text(data, verdict):
     lines += [f"{name:<9}  {spent:8.2f}  {mean:18.1f}  {deviation:5.1f}  {most:6.1f}"
               for name, spent, mean, deviation, most in phase_lines(data)]
     times = solve_times(data)
+    lines += [""]
     if len(times):
-        lines += ["", f"plans: {len(data.plans)}; solve time, wall clock, {len(times)} samples: "
+        lines += [f"plans: {len(data.plans)}; solve time, wall clock, {len(times)} samples: "
                   f"median {np.median(times):.0f} µs, most {times.max():.0f} µs"]
+    error = verdict.figures.get("forecast_error_rms_mm")
+    if error is not None:
+        lines += [f"forecasts {verdict.figures['forecast_horizon_s']:.2f} s ahead: "
+                  f"{error:.1f} mm rms from the truth"]
     lines += [""] + [f"{node}: {key}: {count}" for node, key, count in losses(data)]
     return "\n".join(lines).rstrip() + "\n"

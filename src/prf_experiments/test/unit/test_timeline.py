@@ -93,6 +93,7 @@ class Timeline(unittest.TestCase):
         self.assertIn("median 100 µs, most 110 µs", text)
         self.assertIn("target_predictor: dropped: outside the gate: 3", text)
         self.assertNotIn("answers", text)
+        self.assertRegex(text, r"forecasts 0\.50 s ahead: \d+\.\d mm rms")
 
     def test_episodes_part_where_the_gap_is_too_long(self):
         self.assertEqual(timeline.episodes([1, 2, 9, 10, 30], gap=5),
