@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,10 +17,11 @@ namespace platform_sim {
 /// Throws std::invalid_argument, which lists the gaits, if there is none of that name.
 void require_gait(const std::string& name);
 
-/// Controller of a gait for a robot that is in its stance.
+/// Controller of a gait for a robot that is in its stance. `seed`: of what it does at random.
 [[nodiscard]] std::unique_ptr<LegController> make_leg_controller(const std::string& gait,
                                                                  const RobotModel& robot,
                                                                  const Stance& stance,
-                                                                 double friction);
+                                                                 double friction,
+                                                                 std::uint64_t seed);
 
 }  // namespace platform_sim

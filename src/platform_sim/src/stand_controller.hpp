@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "platform_sim/leg_controller.hpp"
+#include "attitude_reference.hpp"
+#include "feet.hpp"
+#include "virtual_model.hpp"
 
 namespace platform_sim {
 
-/// Stands by holding a posture: tau = tau_load + kp (q_stand - q) - kd dq.
+/// Stands and levels itself as the real robot does: soft sideways over its feet, which stay where
+/// they are, and at an attitude between level and the deck's.
 class StandController : public LegController {
  public:
-  /// `load`: torques that carry the robot at rest in that posture, Nm.
-  StandController(const LegVector& posture, const LegVector& load);
+  StandController(const Stance& stance, const BodyModel& body, double friction);
 
-  [[nodiscard]] LegVector torques(const LegObservation& observation) override;
+  [[nodiscard]] LegVector torques(const LegObservation& observed) override;
 
  private:
-  LegVector posture_;
-  LegVector load_;
+  StartHeading heading_;
+  Stance stance_;
+  VirtualModel model_;
+  SlopeEstimate slope_;
+  AttitudeReference attitude_;
+  double last_time_ = 0.0;
+  bool has_time_ = false;
 };
 
 }  // namespace platform_sim

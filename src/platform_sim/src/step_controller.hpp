@@ -2,48 +2,51 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <random>
 
-#include "ground_forces.hpp"
-#include "platform_sim/leg_controller.hpp"
-#include "stance.hpp"
+#include "attitude_reference.hpp"
+#include "feet.hpp"
+#include "virtual_model.hpp"
 
 namespace platform_sim {
 
-/// Trots in place. Feet on the ground carry the body by virtual springs between its pose and the
-/// pose half-way between level and the deck's slope over the feet; the forces come from
-/// distribute_wrench() and act through -J^T f. Feet in the air are drawn by springs along an arc to
-/// where they balance the body's velocity over the deck (Raibert 1986). The body's way over the
-/// deck is summed from the legs' motion. Before time 0 all feet stay down.
+/// Trots in place. Feet on the ground carry the body (VirtualModel) over the place it has come to:
+/// the way over the deck is summed from the legs' motion, the operator's stick moves the aim, and
+/// so does every landing, because no foot comes down just where it should. Feet in the air are
+/// drawn by springs along an arc to where they balance the body's velocity (Raibert 1986). The
+/// trot is faster when the body is pushed about. Before time 0 all feet stay down.
 class StepController : public LegController {
  public:
-  StepController(const Stance& stance, const BodyModel& body, double friction);
+  /// `seed`: of the errors in placing the feet.
+  StepController(const Stance& stance, const BodyModel& body, double friction, std::uint64_t seed);
 
-  [[nodiscard]] LegVector torques(const LegObservation& observation) override;
+  [[nodiscard]] LegVector torques(const LegObservation& observed) override;
 
  private:
-  struct Feet {  // relative to the base's origin, in axes with z up
-    std::array<Eigen::Vector3d, 4> positions;
-    std::array<Eigen::Vector3d, 4> velocities;
-    std::array<Eigen::Matrix3d, 4> jacobians;
-    std::array<bool, 4> on_ground;
-  };
+  void advance(double time, double duration);
+  [[nodiscard]] double phase_of(std::size_t leg) const;
+  void estimate(const LegObservation& observation, const Feet& feet, double duration);
+  [[nodiscard]] BodyError body_error(const LegObservation& observation, const Feet& feet) const;
+  [[nodiscard]] Eigen::Vector3d landing_place(std::size_t leg) const;
+  [[nodiscard]] Eigen::Vector3d swing_force(const Feet& feet, std::size_t leg) const;
 
-  [[nodiscard]] Feet observe(const LegObservation& observation) const;
-  void estimate_body(const Feet& feet, double time);
-  void estimate_slope(const Feet& feet, double duration);
-  [[nodiscard]] Wrench balance(const LegObservation& observation, const Feet& feet) const;
-  void carry(const LegObservation& observation, const Feet& feet, LegVector& torques);
-  void swing(const LegObservation& observation, const Feet& feet, std::size_t leg,
-             LegVector& torques);
-
+  StartHeading heading_;
   Stance stance_;
-  BodyModel body_;
-  double friction_;
-  Eigen::Vector3d body_way_ = Eigen::Vector3d::Zero();       // over the deck since the start
-  Eigen::Vector3d body_velocity_ = Eigen::Vector3d::Zero();  // over the deck
-  Eigen::Vector2d slope_ = Eigen::Vector2d::Zero();          // pitch and roll of the deck, rad
+  VirtualModel model_;
+  SlopeEstimate slope_;
+  AttitudeReference attitude_;
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> normal_;
+  double cycles_ = 0.0;                                 // since time 0
+  double cadence_;                                      // 1/s
+  double speed_ = 0.0;                                  // m/s, of the body over the deck, smoothed
+  double turning_ = 0.0;                                // rad/s, roll and pitch, smoothed
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // m/s, of the body over the deck
+  Eigen::Vector2d way_ = Eigen::Vector2d::Zero();       // m, from the aim to the body
+  double yaw_ = 0.0;                                    // rad, aim
+  Eigen::Vector3d placing_error_ = Eigen::Vector3d::Zero();  // m, m, rad; pair in the air
   std::array<Eigen::Vector3d, 4> lift_off_;
-  std::array<Eigen::Vector3d, 4> forces_;  // last ones, where the next search starts
   double last_time_ = 0.0;
   bool has_time_ = false;
 };

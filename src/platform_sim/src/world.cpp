@@ -11,9 +11,11 @@
 #include "base_carrier.hpp"
 #include "body_motion.hpp"
 #include "gaits.hpp"
+#include "leg_sensors.hpp"
+#include "pilot.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "stance.hpp"
-#include "stand_controller.hpp"
+#include "stiff_controller.hpp"
 
 namespace platform_sim {
 namespace {
@@ -121,7 +123,7 @@ class World::Impl {
   void place_robot(const WorldConfig& config);
   void settle();
   void drive_legs();
-  [[nodiscard]] LegObservation observe_legs() const;
+  [[nodiscard]] LegObservation observe_legs();
   void judge_fall(const std::vector<ContactPoint>& points);
   [[nodiscard]] bool is_carried() const { return motion_.carries_base() || body_motion_; }
   [[nodiscard]] Eigen::Isometry3d carried_base() const;
@@ -140,6 +142,8 @@ class World::Impl {
   std::vector<const RobotJoint*> arm_joints_;
   std::unique_ptr<BaseCarrier> base_carrier_;  // if is_carried()
   std::unique_ptr<LegController> legs_;
+  LegSensors sensors_;
+  std::optional<Pilot> pilot_;
   std::unique_ptr<ArmDrive> arm_;
   ArmServo* servo_ = nullptr;          // arm_, in servo mode
   CompliantArm* compliant_ = nullptr;  // arm_, in compliant mode
@@ -159,11 +163,13 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
            motion_.deck(0.0).pose),
       post_(scene_, "post", to_parts({target_.post()}), {kTarget, ~kSurroundings},
             motion_.deck(0.0).pose),
-      robot_(scene_, urdf_xml, RobotModel::Base::kFloating, [&](const std::string& body) {
-        RobotSurface surface = robot_surface(body, config.friction);
-        if (is_carried()) surface.filter.mask &= ~kDeck;
-        return surface;
-      }) {
+      robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
+             [&](const std::string& body) {
+               RobotSurface surface = robot_surface(body, config.friction);
+               if (is_carried()) surface.filter.mask &= ~kDeck;
+               return surface;
+             }),
+      sensors_(config.seed, kTimeStep) {
   for (const std::string& name : leg_joint_names()) {
     leg_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
@@ -204,13 +210,14 @@ void World::Impl::place_robot(const WorldConfig& config) {
                     ? body_motion_->base_in_platform(0.0)
                     : Eigen::Translation3d(config.base_start_x, config.base_start_y, height) *
                           Eigen::AngleAxisd(config.base_start_yaw, Eigen::Vector3d::UnitZ());
+  pilot_.emplace(base_start_);
   robot_.set_base_pose(carried_base());
   robot_.update_poses();
   if (is_carried()) {
     base_carrier_ = std::make_unique<BaseCarrier>(scene_, robot_);
-    legs_ = std::make_unique<StandController>(stance.posture, LegVector::Zero());
+    legs_ = std::make_unique<StiffController>(stance.posture, LegVector::Zero());
   } else {
-    legs_ = make_leg_controller(config.gait, robot_, stance, config.friction);
+    legs_ = make_leg_controller(config.gait, robot_, stance, config.friction, config.seed);
   }
 }
 
@@ -239,7 +246,7 @@ void World::Impl::step() {
   judge_fall(points);
 }
 
-LegObservation World::Impl::observe_legs() const {
+LegObservation World::Impl::observe_legs() {
   LegObservation observation;
   observation.time = time();
   for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
@@ -249,7 +256,10 @@ LegObservation World::Impl::observe_legs() const {
   const FrameState base = robot_.frame("base_link");
   observation.attitude = Eigen::Quaterniond(base.pose.linear());
   observation.angular_velocity = base.pose.linear().transpose() * base.angular;
-  return observation;
+  if (time() >= 0.0) {
+    observation.stick = pilot_->stick(time(), motion_.deck(time()).pose.inverse() * base.pose);
+  }
+  return sensors_.measure(observation);
 }
 
 void World::Impl::drive_legs() {

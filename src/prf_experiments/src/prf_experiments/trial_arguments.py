@@ -13,7 +13,7 @@ NAMED = {
     "motion": Argument("light", **choice_or_file("none", "light", "heavy", "as_printed",
                                                  endings=(".yaml", ".csv")),
                        meaning="how the platform moves"),
-    "gait": Argument("stand", **choice("stand", "step"), meaning="what the legs do"),
+    "gait": Argument("stand", **choice("stand", "stand_stiff", "step"), meaning="what the legs do"),
     "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
                         meaning="how the skill is adapted"),
     "framework": Argument(True, **boolean(),
