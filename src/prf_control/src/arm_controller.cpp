@@ -43,6 +43,14 @@ ArmController::ArmController(const ArmControllerParams& params)
   params_.validate();
 }
 
+void ArmController::tune(double velocity_scale, double acceleration) {
+  FollowerParams tuned = params_.follower;
+  tuned.velocity_scale = velocity_scale;
+  tuned.acceleration = acceleration;
+  follower_.tune(tuned);
+  params_.follower = tuned;
+}
+
 std::vector<Answer> ArmController::add_joints(const JointSample& joints) {
   joiner_.add_joints(joints);
   return decided();

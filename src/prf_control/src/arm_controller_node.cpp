@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
+#include <prf_parameters/live_parameters.hpp>
 
 #include "conversions.hpp"
 
@@ -15,7 +16,16 @@ constexpr double kWarnPeriod = 1.0;  // [s]
 class ArmControllerNode {
  public:
   ArmControllerNode(ros::NodeHandle& node, const NodeParams& params)
-      : params_(params), controller_(params.controller) {
+      : params_(params),
+        controller_(params.controller),
+        live_(ros::NodeHandle("~"),
+              {{"velocity_scale", params.controller.follower.velocity_scale,
+                "share of the URDF's joint velocity limits"},
+               {"acceleration", params.controller.follower.acceleration,
+                "limit of every joint, rad/s^2"}},
+              [this](const prf_parameters::LiveParameters::Values& values) {
+                controller_.tune(values.at("velocity_scale"), values.at("acceleration"));
+              }) {
     diagnostics_.setHardwareID("none");
     diagnostics_.add("control", this, &ArmControllerNode::diagnose);
     const auto hints = ros::TransportHints().tcpNoDelay();
@@ -95,6 +105,7 @@ class ArmControllerNode {
 
   NodeParams params_;
   ArmController controller_;
+  prf_parameters::LiveParameters live_;
   ros::Publisher command_, status_;
   ros::Subscriber joints_, setpoint_;
   diagnostic_updater::Updater diagnostics_;

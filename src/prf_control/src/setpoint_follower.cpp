@@ -63,8 +63,11 @@ void FollowerParams::validate() const {
   check("branch_patience", branch_patience, 1e6, " s");
 }
 
-SetpointFollower::SetpointFollower(const FollowerParams& params) : params_(params) {
-  params_.validate();
+SetpointFollower::SetpointFollower(const FollowerParams& params) { tune(params); }
+
+void SetpointFollower::tune(const FollowerParams& params) {
+  params.validate();
+  params_ = params;
   limits_ = limits_of(params_);
 }
 

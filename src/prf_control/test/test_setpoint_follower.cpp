@@ -315,6 +315,28 @@ TEST(SetpointFollower, HoldStopsWithinTheAccelerationLimitAndStays) {
   EXPECT_EQ(follower.hold(kDt).motion.state.position, still.position);
 }
 
+TEST(SetpointFollower, BrakesDownToNewVelocityLimitsWithinTheAccelerationLimit) {
+  SetpointFollower follower(params());
+  follower.start(home());
+  PoseSetpoint far;
+  far.hand_in_base = forward(JointVector(home().array() + 0.5));
+  MotionState before = follower.state();
+  for (int tick = 0; tick < 60; ++tick) before = follower.follow(far, kDt).motion.state;
+  FollowerParams slow = params();
+  slow.velocity_scale = 0.2;
+  follower.tune(slow);
+  for (int tick = 0; tick < 40; ++tick) {
+    const MotionState after = follower.follow(far, kDt).motion.state;
+    ASSERT_NO_FATAL_FAILURE(expect_within_limits(before, after, kDt));
+    before = after;
+  }
+  EXPECT_LE((before.velocity.cwiseAbs() - 0.2 * jaco_joint_limits().velocity).maxCoeff(), 1e-11);
+  EXPECT_GE(before.velocity.norm(), 0.05);
+
+  slow.acceleration = -1.0;
+  EXPECT_THROW(follower.tune(slow), std::invalid_argument);
+}
+
 TEST(SetpointFollower, StartsInsideTheLimits) {
   SetpointFollower follower(params());
   EXPECT_FALSE(follower.started());

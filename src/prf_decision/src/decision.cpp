@@ -83,6 +83,13 @@ void Decision::begin(const Order& order) {
   preempted_ = false;
 }
 
+void Decision::tune(const DecisionParameters& parameters) {
+  parameters.validate();
+  const bool framework = parameters_.framework;
+  parameters_ = parameters;
+  parameters_.framework = framework;
+}
+
 void Decision::begin_execution(Stamp stamp) {
   execution_ = order_;
   if (execution_->time_limit == Duration{0}) execution_->time_limit = parameters_.time_limit;

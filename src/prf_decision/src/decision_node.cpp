@@ -4,6 +4,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include <map>
+#include <prf_parameters/live_parameters.hpp>
 
 #include "conversions.hpp"
 #include "parameters.hpp"
@@ -21,7 +22,9 @@ class DecisionNode {
       : parameters_(parameters),
         gate_(parameters.gate),
         decision_(parameters.decision),
-        action_(node_, decision_, parameters.demonstration) {
+        action_(node_, decision_, parameters.demonstration),
+        live_(ros::NodeHandle("~"), live_numbers(parameters.decision),
+              [this](const LiveParameters::Values& values) { tune(values); }) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     subscribers_ = {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
@@ -38,6 +41,14 @@ class DecisionNode {
   }
 
  private:
+  using LiveParameters = prf_parameters::LiveParameters;
+
+  void tune(const LiveParameters::Values& values) {
+    const DecisionParameters tuned = with_live_numbers(parameters_.decision, values);
+    decision_.tune(tuned);
+    parameters_.decision = tuned;
+  }
+
   void on_joint_states(const sensor_msgs::JointState& message) {
     action_.see_joints(message);
     account("joint_states", gate_.push_tick(to_core(message.header.stamp)));
@@ -121,6 +132,7 @@ class DecisionNode {
   TickGate gate_;
   Decision decision_;
   SkillAction action_;
+  LiveParameters live_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
   ros::Publisher progress_publisher_;

@@ -2,9 +2,11 @@
 // Private: the node's parameters from its private namespace.
 #pragma once
 
+#include <prf_parameters/live_parameters.hpp>
 #include <prf_parameters/private_parameters.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "prf_decision/decision.hpp"
 #include "prf_decision/hmm_file.hpp"
@@ -65,6 +67,29 @@ inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) 
   gate.validate();
   decision.validate();
   return parameters;
+}
+
+// What a person may tune while the node runs.
+inline std::vector<prf_parameters::LiveParameters::Number> live_numbers(
+    const DecisionParameters& decision) {
+  return {{"dwell_time", to_seconds(decision.dwell_time), "s, least time in a state for the HMM"},
+          {"hold_time", to_seconds(decision.hold_time), "s, to follow until done; next execution"},
+          {"lead", to_seconds(decision.lead), "s, the followed goal is so much after the tick"},
+          {"catch_up_time", decision.catch_up.time_constant, "s, with which a small gap closes"},
+          {"tracking_tolerance", decision.tracking_tolerance, "m, that counts as following"},
+          {"max_target_speed", decision.guards.max_target_speed, "m/s, faster ones are refused"}};
+}
+
+inline DecisionParameters with_live_numbers(const DecisionParameters& decision,
+                                            const prf_parameters::LiveParameters::Values& values) {
+  DecisionParameters tuned = decision;
+  tuned.dwell_time = checked_seconds("dwell_time", values.at("dwell_time"));
+  tuned.hold_time = checked_seconds("hold_time", values.at("hold_time"));
+  tuned.lead = checked_seconds("lead", values.at("lead"));
+  tuned.catch_up.time_constant = values.at("catch_up_time");
+  tuned.tracking_tolerance = values.at("tracking_tolerance");
+  tuned.guards.max_target_speed = values.at("max_target_speed");
+  return tuned;
 }
 
 }  // namespace prf_decision

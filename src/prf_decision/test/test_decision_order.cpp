@@ -146,6 +146,20 @@ TEST(Order, ResumesWhereTheLastExecutionEnded) {
   EXPECT_GT(outcome.progress.cursor, cursor);
 }
 
+TEST(Tuning, ActsFromTheNextTickAndIsRefusedWhole) {
+  World world;
+  world.until(State::kTracking, 2);
+  DecisionParameters tuned = usual_parameters();
+  tuned.guards.max_target_speed = 0.05;
+  tuned.tracking_tolerance = -1;
+  EXPECT_THROW(world.decision().tune(tuned), std::invalid_argument);
+  world.velocity.x() = 0.1;
+  EXPECT_EQ(world.run(0.2).progress.state, State::kTracking);
+  tuned.tracking_tolerance = 0.02;
+  world.decision().tune(tuned);
+  EXPECT_EQ(world.tick().progress.state, State::kPause);
+}
+
 TEST(Progress, TellsTheDistanceToTheGoalAndToItsAxis) {
   World world;
   world.position.y() = 0.03;  // the skill still ends at y = 0 and z is the axis: both are off

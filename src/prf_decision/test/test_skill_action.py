@@ -14,6 +14,8 @@ import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 from prf_msgs.msg import (ExecuteSkillAction, ExecuteSkillGoal, ExecuteSkillResult,
                           ExecutionProgress)
 
@@ -108,6 +110,29 @@ class SkillAction(unittest.TestCase):
         self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
         self.assertGreaterEqual(min(p.cursor for p in self.world.progress[before:]),
                                 progress.cursor)
+
+    def test_takes_changed_parameters_whole_or_refuses_them_with_the_reason(self):
+        change = rospy.ServiceProxy("decision/set_parameters", Reconfigure)
+
+        def ask(**numbers):
+            config = Config(doubles=[DoubleParameter(*number) for number in numbers.items()])
+            return {each.name: each.value for each in change(config).config.doubles}
+
+        before = ask()
+        for numbers, reason in ((dict(dwell_time=0.5, lead=-1.0), "lead is -1.000000, must be"),
+                                (dict(dwell_time=0.5, lead=float("nan")), "lead is nan"),
+                                (dict(dwell_time=0.5, max_wait=1.0), "max_wait cannot be changed")):
+            with self.assertRaises(rospy.ServiceException) as refusal:
+                ask(**numbers)
+            self.assertIn(reason, str(refusal.exception))
+            self.assertEqual(ask(), before)
+        after = ask(hold_time=0.25, dwell_time=0.5)
+        self.assertEqual(after, dict(before, hold_time=0.25, dwell_time=0.5))
+        self.assertEqual(rospy.get_param("decision/hold_time"), 0.25)
+        handle = self.begin()
+        self.play(2)
+        self.assertEqual(self.result(handle)[1].text, "tracked for 0.25 s")
+        self.assertEqual(ask(**before), before)
 
     def test_gives_up_at_the_time_limit_of_the_data(self):
         handle = self.begin(time_limit=rospy.Duration(0.5))

@@ -55,6 +55,9 @@ class ArmController {
  public:
   explicit ArmController(const ArmControllerParams& params);
 
+  // Another share of the velocity limits, and acceleration limit, from the next tick on.
+  void tune(double velocity_scale, double acceleration);
+
   std::vector<Answer> add_joints(const JointSample& joints);
   std::vector<Answer> add_setpoint(std::int64_t stamp_ns, const Setpoint& setpoint);
 

@@ -70,6 +70,9 @@ class SetpointFollower {
   [[nodiscard]] bool started() const { return state_.has_value(); }
   [[nodiscard]] const MotionState& state() const { return state_.value(); }
 
+  // Other parameters from the next step on; a motion above new velocity limits brakes down to them.
+  void tune(const FollowerParams& params);
+
   // Both need started(); std::invalid_argument for non-finite set-points or dt <= 0.
   FollowerStep follow(const PoseSetpoint& setpoint, double dt);
   FollowerStep hold(double dt);

@@ -76,6 +76,9 @@ class Decision {
   [[nodiscard]] bool can_begin() const;
   void begin(const Order& order);
 
+  // Other parameters from the next tick on; framework, autostart and the HMM stay as they are.
+  void tune(const DecisionParameters& parameters);
+
   // Stops whatever is under way at the next tick, in any state.
   void preempt() { preempted_ = true; }
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_parameters/live_parameters.hpp"
+
+#include <dynamic_reconfigure/ConfigDescription.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace prf_parameters {
+namespace {
+
+constexpr const char* kGroup = "Default";
+
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  throw std::invalid_argument(name + " cannot be changed while the node runs");
+}
+
+template <typename Items>
+void refuse_all(const Items& items) {
+  if (!items.empty()) refuse_unknown(items.front().name);
+}
+
+}  // namespace
+
+LiveParameters::LiveParameters(const ros::NodeHandle& private_handle,
+                               const std::vector<Number>& numbers, const Apply& apply)
+    : handle_(private_handle), apply_(apply) {
+  for (const Number& number : numbers) values_[number.name] = number.value;
+  describe(numbers);
+  updates_ = handle_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
+  updates_.publish(config());
+  service_ = handle_.advertiseService<Request, Response>(
+      "set_parameters",
+      [this](Request& request, Response& response) { return change(request, response); });
+}
+
+// An exception out of here reaches the caller as the text of the service's error.
+bool LiveParameters::change(const Request& request, Response& response) {
+  try {
+    const Values wanted = changed(request.config);
+    apply_(wanted);
+    values_ = wanted;
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN("change of parameters refused: %s", error.what());
+    throw;
+  }
+  for (const auto& number : request.config.doubles) {
+    handle_.setParam(number.name, number.value);
+    ROS_INFO("%s is now %g", number.name.c_str(), number.value);
+  }
+  response.config = config();
+  updates_.publish(response.config);
+  return true;
+}
+
+LiveParameters::Values LiveParameters::changed(const dynamic_reconfigure::Config& config) const {
+  refuse_all(config.bools);
+  refuse_all(config.ints);
+  refuse_all(config.strs);
+  Values wanted = values_;
+  for (const auto& number : config.doubles) {
+    const auto found = wanted.find(number.name);
+    if (found == wanted.end()) refuse_unknown(number.name);
+    if (!std::isfinite(number.value)) {
+      throw std::invalid_argument(number.name + " is " + std::to_string(number.value) +
+                                  ", must be finite");
+    }
+    found->second = number.value;
+  }
+  return wanted;
+}
+
+dynamic_reconfigure::Config LiveParameters::config() const {
+  dynamic_reconfigure::Config config;
+  for (const auto& [name, value] : values_) {
+    config.doubles.emplace_back();
+    config.doubles.back().name = name;
+    config.doubles.back().value = value;
+  }
+  config.groups.resize(1);
+  config.groups[0].name = kGroup;
+  config.groups[0].state = true;
+  return config;
+}
+
+void LiveParameters::describe(const std::vector<Number>& numbers) {
+  dynamic_reconfigure::ConfigDescription description;
+  description.groups.resize(1);
+  description.groups[0].name = kGroup;
+  for (const Number& number : numbers) {
+    auto& parameters = description.groups[0].parameters;
+    parameters.emplace_back();
+    parameters.back().name = number.name;
+    parameters.back().type = "double";
+    parameters.back().description = number.meaning;
+  }
+  description.dflt = description.min = description.max = config();
+  for (auto& number : description.min.doubles) number.value = std::numeric_limits<double>::lowest();
+  for (auto& number : description.max.doubles) number.value = std::numeric_limits<double>::max();
+  descriptions_ =
+      handle_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
+  descriptions_.publish(description);
+}
+
+}  // namespace prf_parameters
