@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "platform_sim/image_noise.hpp"
+#include "platform_sim/variation.hpp"
 
 namespace platform_sim {
 namespace {
@@ -43,6 +44,9 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   const int seed = values.integer("seed");
   require_within("seed", seed, 0, 2147483647);
   result.world.seed = static_cast<std::uint64_t>(seed);
+  const Variation variation = Variation::draw(result.world.seed, values.number("variation"));
+  variation.apply_to(result.world);
+  result.variation = variation.text();
   result.world.arm_mode =
       one_of("arm_mode", values.text("arm_mode"), {"servo", "compliant"}) == "servo"
           ? ArmMode::kServo
@@ -65,6 +69,7 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   require_within("end_delay", result.end_delay, 0.0, 60.0);
   result.camera_noise = values.number("camera_noise");
   require_within("camera_noise", result.camera_noise, 0.0, 100.0);
+  result.camera_noise *= variation.camera_noise_factor;
   result.camera.latency = values.number("camera_latency");
   result.camera.exposure = values.number("camera_exposure");
   result.camera.validate();

@@ -11,6 +11,7 @@ namespace platform_sim {
 // The node's parameters; config/platform_sim.yaml says what each means.
 struct SimParameters {
   WorldConfig world;
+  std::string variation;  // what the seed drew, in words
   CameraTiming camera;
   double camera_noise = 0.0;  // grey levels
   bool lockstep = true;

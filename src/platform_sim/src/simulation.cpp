@@ -62,7 +62,9 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
       publishers_(node),
       answers_(node, peer_of(params)),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
-      started_(!params.paused) {}
+      started_(!params.paused) {
+  ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
+}
 
 Simulation::Outcome Simulation::run() {
   Outcome outcome = wait_for_start();

@@ -30,6 +30,7 @@ void TargetBox::validate() const {
   if (!tag_position_in_platform.allFinite()) {
     throw std::invalid_argument("target.tag_position_in_platform is not finite");
   }
+  if (!std::isfinite(yaw)) throw std::invalid_argument("target.yaw is not finite");
   require_positive("target.tag_size", tag_size);
   require_positive("target.inner_width", inner_width);
   require_positive("target.inner_depth", inner_depth);
@@ -52,19 +53,21 @@ Eigen::Isometry3d TargetBox::tag_in_platform() const {
   pose.linear().col(0) = -Eigen::Vector3d::UnitY();
   pose.linear().col(1) = Eigen::Vector3d::UnitZ();
   pose.linear().col(2) = -Eigen::Vector3d::UnitX();
+  pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * pose.linear();
   pose.translation() = tag_position_in_platform;
   return pose;
 }
 
 Eigen::Isometry3d TargetBox::box_in_platform() const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   pose.translation() =
-      tag_position_in_platform - Eigen::Vector3d(0.5 * inner_depth, 0.0, tag_above_box_centre);
+      tag_position_in_platform -
+      pose.linear() * Eigen::Vector3d(0.5 * inner_depth, 0.0, tag_above_box_centre);
   return pose;
 }
 
 std::vector<Cuboid> TargetBox::walls() const {
-  const Eigen::Vector3d centre = box_in_platform().translation();
   const double wall_offset = 0.5 * (inner_width + wall_thickness);
   const double outer_width = inner_width + 2.0 * wall_thickness;
   const Eigen::Vector3d back(0.5 * (inner_depth + wall_thickness), 0.0, 0.0);
@@ -73,16 +76,21 @@ std::vector<Cuboid> TargetBox::walls() const {
   const Eigen::Vector3d back_size(wall_thickness, outer_width, outer_width);
   const Eigen::Vector3d side_size(inner_depth, wall_thickness, inner_width);
   const Eigen::Vector3d lid_size(inner_depth, outer_width, wall_thickness);
-  return {cuboid_at(centre + back, back_size), cuboid_at(centre + left, side_size),
-          cuboid_at(centre - left, side_size), cuboid_at(centre + top, lid_size),
-          cuboid_at(centre - top, lid_size)};
+  std::vector<Cuboid> walls{cuboid_at(back, back_size), cuboid_at(left, side_size),
+                            cuboid_at(-left, side_size), cuboid_at(top, lid_size),
+                            cuboid_at(-top, lid_size)};
+  for (Cuboid& wall : walls) wall.pose_in_platform = box_in_platform() * wall.pose_in_platform;
+  return walls;
 }
 
 Cuboid TargetBox::post() const {
-  const Eigen::Vector3d centre = box_in_platform().translation();
-  const double height = centre.z() - 0.5 * inner_width - wall_thickness;
-  const double x = tag_position_in_platform.x() + wall_thickness - 0.5 * post_width;
-  return cuboid_at({x, centre.y(), 0.5 * height}, {post_width, post_width, height});
+  const Eigen::Isometry3d box = box_in_platform();
+  const double centre = box.translation().z();
+  const double height = centre - 0.5 * inner_width - wall_thickness;
+  const double x = 0.5 * inner_depth + wall_thickness - 0.5 * post_width;
+  Cuboid post = cuboid_at({x, 0.0, 0.5 * height - centre}, {post_width, post_width, height});
+  post.pose_in_platform = box * post.pose_in_platform;
+  return post;
 }
 
 }  // namespace platform_sim

@@ -81,5 +81,22 @@ TEST(TargetBox, RefusesImpossibleSizes) {
   }
 }
 
+TEST(TargetBox, TurnsAsOneAboutTheVerticalThroughTheTag) {
+  const TargetBox straight;
+  TargetBox turned;
+  turned.yaw = 0.3;
+  const Eigen::Isometry3d tag = straight.tag_in_platform();
+  const Eigen::Vector3d pivot = tag.translation();
+  const Eigen::Isometry3d turn = Eigen::Translation3d(pivot) *
+                                 Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::Translation3d(-pivot);
+  EXPECT_TRUE(turned.tag_in_platform().isApprox(turn * tag));
+  EXPECT_TRUE(turned.post().pose_in_platform.isApprox(turn * straight.post().pose_in_platform));
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(
+        turned.walls()[i].pose_in_platform.isApprox(turn * straight.walls()[i].pose_in_platform));
+  }
+}
+
 }  // namespace
 }  // namespace platform_sim

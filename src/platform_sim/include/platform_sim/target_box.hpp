@@ -21,6 +21,7 @@ struct Cuboid {
 /// face, as seen by a viewer in front. Lengths in metres.
 struct TargetBox {
   Eigen::Vector3d tag_position_in_platform{0.89, 0.0, 1.30};
+  double yaw = 0.0;        ///< rad, of box, tag and post about the vertical through the tag
   double tag_size = 0.10;  ///< edge of the tag's black border
   double tag_above_box_centre = 0.07;
   double inner_width = 0.30;  ///< along platform y and z

@@ -29,6 +29,8 @@ LAUNCHED = {
                          meaning="forward: never waits or goes back for the target's motion"),
     "predictor": Argument("ukf", **choice(*PREDICTORS),
                           meaning="how the target's motion is foretold"),
+    "variation": Argument(1.0, **number(0.0, 1.0),
+                          meaning="how much the seed changes box, placement, friction, noise"),
     "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),
     "real_time_factor": Argument(0.0, **number(0.0, 100.0),
                                  meaning="at most so fast, 0: as fast as it goes"),
