@@ -4,6 +4,7 @@ import glob
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -49,6 +50,18 @@ class Refusals(unittest.TestCase):
             error = self.refused(word, one_line=False)
             self.assertIn(words, error)
             self.assertIn("demonstration:=", error)
+
+    def test_run_experiment_refuses_before_it_sets_up_or_builds(self):
+        script = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "..", "..",
+                              "run_experiment")
+        build = os.path.join(self.results, "build")
+        for words, code, told in ((["table", "motion:=wild"], 2, "none|light|heavy"),
+                                  (["tabel"], 2, "invalid choice"), (["--help"], 0, "compare")):
+            run = subprocess.run([script, *words], env={**os.environ, "BUILD_DIR": build},
+                                 capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+            self.assertIn(told, run.stdout + run.stderr)
+            self.assertFalse(os.path.exists(build))
 
     def test_absent_demonstration(self):
         self.assertIn("/absent.csv", self.refused("demonstration:=/absent.csv"))
