@@ -19,7 +19,7 @@ int main() {
   problem.clearance = 0.03;
 
   const elte_planner::AvoidanceSolution solution = elte_planner::avoid_obstacles(problem);
-  if (solution.status != elte_planner::EditStatus::kSolved) {
+  if (solution.status != elte_planner::AvoidanceStatus::kSolved) {
     std::printf("%s\n", solution.message.c_str());
     return 1;
   }

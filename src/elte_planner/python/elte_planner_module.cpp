@@ -46,6 +46,22 @@ const char* name_of(EditStatus status) {
   return "iteration_limit";
 }
 
+const char* name_of(AvoidanceStatus status) {
+  switch (status) {
+    case AvoidanceStatus::kSolved:
+      return "solved";
+    case AvoidanceStatus::kNotFound:
+      return "not_found";
+    case AvoidanceStatus::kInfeasible:
+      return "infeasible";
+    case AvoidanceStatus::kIllPosed:
+      return "ill_posed";
+    case AvoidanceStatus::kIterationLimit:
+      break;
+  }
+  return "iteration_limit";
+}
+
 const char* name_of(PlanStatus status) {
   switch (status) {
     case PlanStatus::kSolved:
@@ -154,15 +170,20 @@ void bind_obstacles(py::module_& m) {
   py::class_<AvoidanceSolution>(m, "AvoidanceSolution", "What avoid() found.")
       .def_property_readonly(
           "status", [](const AvoidanceSolution& s) { return name_of(s.status); },
-          "'solved', 'infeasible', 'ill_posed' or 'iteration_limit'.")
+          "'solved', 'not_found' (which is no proof that there is no way), or, without the "
+          "obstacles\n"
+          "already, 'infeasible', 'ill_posed' or 'iteration_limit'.")
       .def_readonly("message", &AvoidanceSolution::message, "Why it is not solved, one line.")
       .def_property_readonly(
           "y",
           [](const AvoidanceSolution& s) {
-            return s.status == EditStatus::kSolved ? s.plan.y : Eigen::MatrixXd();
+            return s.status == AvoidanceStatus::kSolved ? s.plan.y : Eigen::MatrixXd();
           },
           "Edited trajectory, (T, d); empty unless solved.")
       .def_property_readonly("energy", [](const AvoidanceSolution& s) { return s.plan.energy; })
+      .def_property_readonly(
+          "kkt_residual", [](const AvoidanceSolution& s) { return s.plan.kkt_residual; },
+          "Of the last convex problem.")
       .def_readonly("clearance", &AvoidanceSolution::clearance, "Of the segments not fixed.")
       .def_readonly("last_move", &AvoidanceSolution::last_move, "Of a coordinate, last pass.")
       .def_readonly("passes", &AvoidanceSolution::passes)
@@ -193,20 +214,60 @@ void bind_planners(py::module_& m) {
       "plan",
       [](const std::string& planner, const Eigen::MatrixXd& zeta, const Eigen::MatrixXd& previous,
          Eigen::Index executed, const Eigen::VectorXd& goal, double radius, double w_elastic,
-         double w_bending) {
+         double w_bending, double max_step) {
         const PlanResult result =
-            make_skill_planner(planner, zeta, weights_from(w_elastic, w_bending, "free_ends"))
+            make_skill_planner(planner, zeta, weights_from(w_elastic, w_bending, "free_ends"),
+                               max_step)
                 ->plan({previous, executed, goal, radius});
         return py::make_tuple(result.positions, name_of(result.status), result.slack);
       },
       py::arg("planner"), py::arg("zeta"), py::arg("previous"), py::arg("executed"),
       py::arg("goal"), py::arg("radius") = 0.0, py::kw_only(), py::arg("w_elastic") = 0.001,
-      py::arg("w_bending") = 0.001,
+      py::arg("w_bending") = 0.001, py::arg("max_step") = std::numeric_limits<double>::infinity(),
       "(y, status, slack) of planner 'elte', 'lte', 'elastic_map' or 'dmp'; y is (T, d).");
+}
+
+Pose pose_from_row(const Eigen::Matrix<double, 7, 1>& row) {
+  return {row.head<3>(), Eigen::Quaterniond(row[6], row[3], row[4], row[5])};
+}
+
+Eigen::Matrix<double, 7, 1> row_from(const Pose& pose) {
+  Eigen::Matrix<double, 7, 1> row;
+  row << pose.position, pose.orientation.coeffs();
+  return row;
+}
+
+Demonstration demonstration_from(const Eigen::VectorXd& times, const Eigen::MatrixXd& positions,
+                                 const Eigen::MatrixXd& quaternions, const std::string& frame,
+                                 const std::string& child_frame,
+                                 const Eigen::Matrix<double, 7, 1>& target) {
+  const Eigen::Index count = times.size();
+  if (positions.rows() != count || positions.cols() != 3 || quaternions.rows() != count ||
+      quaternions.cols() != 4) {
+    throw std::invalid_argument(
+        "demonstration has " + std::to_string(count) + " times, positions " +
+        std::to_string(positions.rows()) + " x " + std::to_string(positions.cols()) +
+        " and quaternions " + std::to_string(quaternions.rows()) + " x " +
+        std::to_string(quaternions.cols()) + ", must be as many, x 3 and x 4");
+  }
+  std::vector<TimedPose> samples;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    Eigen::Matrix<double, 7, 1> row;
+    row << positions.row(i).transpose(), quaternions.row(i).transpose();
+    samples.push_back({times[i], pose_from_row(row)});
+  }
+  return Demonstration(std::move(samples), frame, child_frame, pose_from_row(target));
 }
 
 void bind_demonstration(py::module_& m) {
   py::class_<Demonstration>(m, "Demonstration", "Timed poses of a demonstrated skill.")
+      .def(py::init(&demonstration_from), py::arg("times"), py::arg("positions"),
+           py::arg("quaternions"), py::arg("frame"), py::arg("child_frame"), py::arg("target"),
+           "times: (N,), s from 0. positions: (N, 3), m. quaternions: (N, 4), x y z w. target:\n"
+           "(7,), position and quaternion of the target in frame.")
+      .def_property_readonly(
+          "target", [](const Demonstration& d) { return row_from(d.target()); },
+          "(7,), x y z qx qy qz qw.")
       .def_property_readonly("frame", &Demonstration::frame)
       .def_property_readonly("child_frame", &Demonstration::child_frame)
       .def_property_readonly("positions", &Demonstration::positions, "(N, 3), m.")
@@ -236,7 +297,10 @@ void bind_demonstration(py::module_& m) {
       .def("resampled_by_arc_length", &Demonstration::resampled_by_arc_length, py::arg("nodes"),
            "nodes samples equally spaced along the path.")
       .def("resampled_by_douglas_peucker", &Demonstration::resampled_by_douglas_peucker,
-           py::arg("nodes"), "The nodes samples that keep the shape best, as demonstrated.");
+           py::arg("nodes"), "The nodes samples that keep the shape best, as demonstrated.")
+      .def("thinned_by_douglas_peucker", &Demonstration::thinned_by_douglas_peucker,
+           py::arg("tolerance"),
+           "The samples that leave none farther than tolerance, m, from the lines between them.");
   m.def(
       "combine",
       [](const std::vector<Demonstration>& demonstrations, std::size_t nodes,
@@ -258,7 +322,7 @@ void bind_demonstration(py::module_& m) {
 
 }  // namespace
 
-PYBIND11_MODULE(elte_planner, m) {
+PYBIND11_MODULE(_core, m) {
   m.doc() = "Elastic Laplacian trajectory editing: numpy in, numpy out. Rows are nodes.";
   bind_solver(m);
   bind_endpoint_solver(m);

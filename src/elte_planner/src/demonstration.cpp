@@ -160,16 +160,15 @@ Demonstration Demonstration::resampled_by_arc_length(std::size_t nodes) const {
   return Demonstration(std::move(result), frame_, child_frame_, target_);
 }
 
-Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) const {
-  if (nodes < kMinSamples || nodes > samples_.size()) {
-    refuse("resampling to " + text(nodes) + " nodes, must be within [" + text(kMinSamples) + ", " +
-           text(samples_.size()) + "], the number of samples");
-  }
+// Takes the sample farthest from the lines between those taken until
+// is_enough(samples taken, the farthest one's distance).
+template <typename IsEnough>
+Demonstration Demonstration::subdivided(IsEnough&& is_enough) const {
   std::vector<bool> taken(samples_.size(), false);
   taken.front() = taken.back() = true;
   std::priority_queue<Gap> gaps;
   gaps.push(gap_between(0, samples_.size() - 1, samples_));
-  for (std::size_t count = 2; count < nodes; ++count) {
+  for (std::size_t count = 2; !is_enough(count, gaps.top().distance); ++count) {
     const Gap widest = gaps.top();
     gaps.pop();
     taken[widest.farthest] = true;
@@ -181,6 +180,23 @@ Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) con
     if (taken[i]) result.push_back(samples_[i]);
   }
   return Demonstration(std::move(result), frame_, child_frame_, target_);
+}
+
+Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) const {
+  if (nodes < kMinSamples || nodes > samples_.size()) {
+    refuse("resampling to " + text(nodes) + " nodes, must be within [" + text(kMinSamples) + ", " +
+           text(samples_.size()) + "], the number of samples");
+  }
+  return subdivided([nodes](std::size_t count, double) { return count == nodes; });
+}
+
+Demonstration Demonstration::thinned_by_douglas_peucker(double tolerance) const {
+  if (!(tolerance >= 0.0)) {
+    refuse("thinning tolerance is " + text(tolerance) + " m, must be at least 0 m");
+  }
+  return subdivided([tolerance](std::size_t count, double farthest) {
+    return count >= kMinSamples && farthest <= tolerance;
+  });
 }
 
 }  // namespace elte_planner

@@ -33,10 +33,12 @@ void check_constraint(const PointConstraint& constraint, std::size_t index, Eige
     refuse(name() + " has " + std::to_string(constraint.centre.size()) +
            " coordinates, must have " + std::to_string(dimensions));
   }
-  if (!constraint.centre.allFinite()) refuse(name() + " has a coordinate that is not finite");
+  if (!is_within_magnitude(constraint.centre)) {
+    refuse(name() + " has a coordinate that is not finite or above 1e100");
+  }
   if (half_space) {
-    if (!constraint.normal.allFinite() || !(constraint.normal.norm() > 1e-100)) {
-      refuse(name() + " has a normal that is zero or not finite");
+    if (!is_within_magnitude(constraint.normal) || !(constraint.normal.norm() > 1e-100)) {
+      refuse(name() + " has a normal that is zero, not finite or above 1e100");
     }
     return;
   }
@@ -77,7 +79,9 @@ void EditProblem::validate() const {
            ", must be at most " + std::to_string(zeta.rows()) + " x " +
            std::to_string(zeta.cols()));
   }
-  if (!fixed.allFinite()) refuse("fixed rows have a coordinate that is not finite");
+  if (!is_within_magnitude(fixed)) {
+    refuse("fixed rows have a coordinate that is not finite or above 1e100");
+  }
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     check_constraint(constraints[i], i, zeta.rows(), zeta.cols());
   }

@@ -71,7 +71,7 @@ void EditSolver::Workspace::respond_to_centre(Eigen::Index j, bool slope, Eigen:
   change.setZero();
   if (slope) {
     chain_.respond_to_step_force(1, change.col(j).data());
-    change.col(j) *= StepChain::kProximalWeight;
+    change.col(j) *= chain_.proximal_weight();
   } else {
     change.col(j).setOnes();
   }

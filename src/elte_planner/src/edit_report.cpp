@@ -74,17 +74,17 @@ void EditSolver::Workspace::newton_step() {
   const Eigen::Index first = chain_.first_step();
   absolute_ = y_.rowwise() + origin_;
   compute_gradient(absolute_);
+  displacement_.setZero(d_);
   for (Eigen::Index j = 0; j < d_; ++j) {
     double sum = 0.0;
-    double* v = steps_.col(j).data();
-    for (Eigen::Index i = n_ - 1; i >= first; --i) v[i] = sum -= gradient_(i, j);
-    double displacement = 0.0;
-    if (chain_.start_is_free()) {
-      displacement = (sum - gradient_(0, j)) / StepChain::kProximalWeight;
-      y_(0, j) += displacement;
-    }
-    chain_.solve(v);
-    for (Eigen::Index i = first; i < n_; ++i) y_(i, j) += displacement += v[i];
+    for (Eigen::Index i = n_ - 1; i >= first; --i) steps_(i, j) = sum -= gradient_(i, j);
+    if (!chain_.start_is_free()) continue;
+    displacement_[j] = (sum - gradient_(0, j)) / chain_.proximal_weight();
+    y_(0, j) += displacement_[j];
+  }
+  chain_.solve(steps_);
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    for (Eigen::Index i = first; i < n_; ++i) y_(i, j) += displacement_[j] += steps_(i, j);
   }
   values_.resize(std::max<Eigen::Index>(values_.size(), active_.size()));
   for (Eigen::Index a = 0; a < active_.size(); ++a) values_[a] = violation_of(active_[a], a);
@@ -101,11 +101,7 @@ void EditSolver::Workspace::newton_step() {
 
 void EditSolver::Workspace::compute_gradient(const Eigen::MatrixXd& y) {
   gradient_.setZero(n_, d_);
-  for (Eigen::Index j = 0; j < d_; ++j) {
-    for (Eigen::Index k = fixed_rows_; k < n_; ++k) {
-      gradient_(k, j) = half_gradient(problem_->zeta, problem_->weights, y, k, j);
-    }
-  }
+  half_gradient(problem_->zeta, problem_->weights, y, fixed_rows_, gradient_);
   for (Eigen::Index a = 0; a < active_.size(); ++a) {
     const Facet& facet = active_[a];
     const auto force = facet.multiplier * active_.normal(a).transpose();

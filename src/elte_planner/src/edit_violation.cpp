@@ -21,19 +21,20 @@ double violation_of(const PointConstraint& c, const Eigen::MatrixXd& y) {
 
 void EditSolver::Workspace::offer_ball(int constraint, Eigen::Index index, bool on_step,
                                        double radius, double& worst, Facet& best) {
-  double norm = 0.0;
-  double offset = radius;
-  for (Eigen::Index j = 0; j < d_; ++j) {
-    const double centre = on_step ? 0.0 : centres_(constraint, j);
+  const auto centre = [&](Eigen::Index j) { return on_step ? 0.0 : centres_(constraint, j); };
+  const auto offset_from_centre = [&](Eigen::Index j) {
     const double x = on_step ? y_(index, j) - y_(index - 1, j) : y_(index, j);
-    const double sign = x < centre ? -1.0 : 1.0;
-    trial_normal_[j] = sign;
-    norm += std::abs(x - centre);
-    offset += sign * centre;
-  }
+    return x - centre(j);
+  };
+  double norm = 0.0;
+  for (Eigen::Index j = 0; j < d_; ++j) norm += std::abs(offset_from_centre(j));
   if (norm - radius <= worst) return;
   worst = norm - radius;
-  best_normal_ = trial_normal_;
+  double offset = radius;
+  for (Eigen::Index j = 0; j < d_; ++j) {
+    best_normal_[j] = offset_from_centre(j) < 0.0 ? -1.0 : 1.0;
+    offset += best_normal_[j] * centre(j);
+  }
   best = Facet{};
   best.index = index;
   best.on_step = on_step;

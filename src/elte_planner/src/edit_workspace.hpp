@@ -25,6 +25,7 @@ class EditSolver::Workspace {
   std::string ill_posed_reason() const;
   bool fixed_rows_are_feasible(EditSolution& solution) const;
   void build_right_side();
+  void solve_from_here(EditSolution& solution);
 
   Outcome solve_strictly_convex(EditSolution& solution);
   bool move_proximal_centre();
@@ -56,6 +57,7 @@ class EditSolver::Workspace {
   Eigen::Index n_ = 0;
   Eigen::Index d_ = 0;
   Eigen::Index fixed_rows_ = 0;
+  int iteration_limit_ = 0;
   double extent_ = 1.0;
   double tolerance_ = 0.0;  // of feasibility, in the unit of the problem
   double last_centre_step_ = std::numeric_limits<double>::infinity();
@@ -72,6 +74,7 @@ class EditSolver::Workspace {
   Eigen::MatrixXd y_;         // relative
   Eigen::MatrixXd absolute_;
   Eigen::MatrixXd steps_;
+  Eigen::VectorXd displacement_;
   Eigen::MatrixXd gradient_;  // half that of the Lagrangian
   Eigen::VectorXd best_normal_;
   Eigen::VectorXd trial_normal_;

@@ -72,34 +72,33 @@ double ElteWeights::decay_nodes() const {
   return elastic > 0.0 ? std::sqrt(curvature() / elastic) : std::numeric_limits<double>::infinity();
 }
 
+bool is_within_magnitude(const ConstMatrix& values) {
+  return (values.array().abs() <= kMaxMagnitude).all();
+}
+
 void validate_demonstration_nodes(const ConstMatrix& zeta) {
   if (zeta.rows() < 3 || zeta.cols() < 1) {
     throw std::invalid_argument("demonstration has " + std::to_string(zeta.rows()) + " nodes x " +
                                 std::to_string(zeta.cols()) +
                                 " dimensions, must have at least 3 x 1");
   }
-  if (!zeta.allFinite()) {
-    throw std::invalid_argument("demonstration has a coordinate that is not finite");
+  if (!is_within_magnitude(zeta)) {
+    throw std::invalid_argument("demonstration has a coordinate that is not finite or above 1e100");
   }
 }
 
 double energy(const ConstMatrix& zeta, const ElteWeights& weights, const ConstMatrix& y) {
   const Eigen::Index n = y.rows();
-  double sum = 0.0;
-  for (Eigen::Index j = 0; j < y.cols(); ++j) {
-    for (Eigen::Index k = 0; k + 2 < n; ++k) {
-      const double bend = second_difference(y, k, j);
-      const double deviation = bend - second_difference(zeta, k, j);
-      sum += 0.25 * deviation * deviation + weights.bending * bend * bend;
-    }
-    for (Eigen::Index k = 0; k + 1 < n; ++k) {
-      const double step = y(k + 1, j) - y(k, j);
-      sum += weights.elastic * step * step;
-      if (weights.laplacian == Laplacian::kRowNormalised && (k == 0 || k == n - 2)) {
-        const double deviation = step - (zeta(k + 1, j) - zeta(k, j));
-        sum += deviation * deviation;
-      }
-    }
+  const auto steps = [n](const ConstMatrix& x) { return x.bottomRows(n - 1) - x.topRows(n - 1); };
+  const auto bends = [n](const ConstMatrix& x) {
+    const auto middle = x.middleRows(1, n - 2);
+    return (x.bottomRows(n - 2) - middle) - (middle - x.topRows(n - 2));
+  };
+  double sum = 0.25 * (bends(y) - bends(zeta)).squaredNorm() +
+               weights.bending * bends(y).squaredNorm() + weights.elastic * steps(y).squaredNorm();
+  if (weights.laplacian == Laplacian::kRowNormalised) {
+    sum += (steps(y).row(0) - steps(zeta).row(0)).squaredNorm() +
+           (steps(y).row(n - 2) - steps(zeta).row(n - 2)).squaredNorm();
   }
   return sum;
 }
@@ -112,6 +111,34 @@ double half_gradient(const ConstMatrix& zeta, const ElteWeights& weights, const 
          pull(node);
 }
 
+void half_gradient(const ConstMatrix& zeta, const ElteWeights& weights, const ConstMatrix& y,
+                   Eigen::Index from, Eigen::MatrixXd& result) {
+  const Eigen::Index n = y.rows();
+  // Nodes whose neighbourhood is whole take the short way.
+  const Eigen::Index begin = std::max<Eigen::Index>(from, 2);
+  const Eigen::Index end = std::max(begin, n - 2);
+  for (Eigen::Index j = 0; j < y.cols(); ++j) {
+    for (Eigen::Index k = from; k < std::min(begin, n); ++k) {
+      result(k, j) = half_gradient(zeta, weights, y, k, j);
+    }
+    if (begin < end) {
+      double before = bending_force(zeta, weights, y, begin - 2, j);
+      double here = bending_force(zeta, weights, y, begin - 1, j);
+      for (Eigen::Index k = begin; k < end; ++k) {
+        const double after =
+            weights.curvature() * second_difference(y, k, j) - 0.25 * second_difference(zeta, k, j);
+        result(k, j) = (after - here) - (here - before) -
+                       weights.elastic * ((y(k + 1, j) - y(k, j)) - (y(k, j) - y(k - 1, j)));
+        before = here;
+        here = after;
+      }
+    }
+    for (Eigen::Index k = end; k < n; ++k) {
+      result(k, j) = half_gradient(zeta, weights, y, k, j);
+    }
+  }
+}
+
 // Michelot's algorithm: the threshold rises monotonically until no further coordinate drops out.
 void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double radius,
                         Eigen::Ref<Eigen::VectorXd, 0, Eigen::InnerStride<>> point) {
@@ -121,8 +148,7 @@ void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double 
   }
   if ((point - centre).lpNorm<1>() <= radius) return;
   double threshold = 0.0;
-  for (Eigen::Index count = -1, previous = -2; count != previous;) {
-    previous = count;
+  for (Eigen::Index count = 0, previous = point.size() + 1;; previous = count) {
     count = 0;
     double sum = 0.0;
     for (Eigen::Index j = 0; j < point.size(); ++j) {
@@ -132,6 +158,7 @@ void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double 
         ++count;
       }
     }
+    if (count == 0 || count >= previous) break;
     threshold = (sum - radius) / static_cast<double>(count);
   }
   for (Eigen::Index j = 0; j < point.size(); ++j) {

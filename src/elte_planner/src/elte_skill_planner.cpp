@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elte_planner/elte_skill_planner.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
+#include "elte_planner/edit_problem.hpp"
+
 namespace elte_planner {
+namespace {
+
+// Bounds the work of one plan, and unlike a clock gives the same answer on every machine.
+constexpr int kMaxIterations = 2000;
+
+}  // namespace
 
 ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
-                                   std::string name)
+                                   std::string name, double max_step)
     : demonstration_(demonstration),
       weights_(weights),
       name_(std::move(name)),
-      solver_(demonstration, weights) {}
+      max_step_(max_step),
+      solver_(demonstration, weights) {
+  if (!(max_step > 0.0)) {
+    throw std::invalid_argument("max_step is " + std::to_string(max_step) +
+                                " m, must be above 0 m");
+  }
+}
 
 PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
   validate_request(request, demonstration_);
@@ -18,9 +35,46 @@ PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
   PlanResult result;
   result.positions = request.previous;
   solver_.solve(request.frozen, request.goal, request.radius, result.positions);
+  if (!keeps_step_bound(result, request.frozen)) return plan_with_step_bound(request);
   result.status = PlanStatus::kSolved;
   result.kkt_residual = endpoint_kkt_residual(demonstration_, weights_, result.positions,
                                               request.frozen, request.goal, request.radius);
+  return result;
+}
+
+bool ElteSkillPlanner::keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const {
+  const Eigen::Index free = demonstration_.rows() - frozen;
+  const auto steps = plan.positions.bottomRows(free) - plan.positions.middleRows(frozen - 1, free);
+  return steps.rowwise().lpNorm<1>().maxCoeff() <= max_step_;
+}
+
+PlanResult ElteSkillPlanner::plan_with_step_bound(const PlanRequest& request) const {
+  const Eigen::Index last = demonstration_.rows() - 1;
+  EditProblem problem;
+  problem.zeta = demonstration_;
+  problem.weights = weights_;
+  problem.fixed = request.previous.topRows(request.frozen);
+  problem.max_step = max_step_;
+  // Just within reach: exactly at its edge every step is at its bound and nothing is left to
+  // choose.
+  const double reach = (1.0 - 1e-6) * max_step_ * static_cast<double>(last + 1 - request.frozen);
+  const double distance =
+      (request.goal.transpose() - request.previous.row(request.frozen - 1)).lpNorm<1>();
+  const double radius = std::max(request.radius, distance - reach);
+  problem.constraints = {PointConstraint::ball(last, request.goal, radius)};
+  EditSettings settings;
+  settings.max_iterations = kMaxIterations;
+  EditSolution solution;
+  EditSolver().solve(problem, settings, solution);
+
+  PlanResult result;
+  result.message = solution.message;
+  if (solution.status != EditStatus::kSolved) return result;
+  result.positions = solution.y;
+  result.kkt_residual = solution.kkt_residual;
+  result.slack = radius - request.radius;
+  result.status = result.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved;
+  if (result.slack > 0.0) result.message = "the goal is beyond what the bound on steps allows";
   return result;
 }
 

@@ -27,11 +27,8 @@ void EndpointSolver::build_gains(const Eigen::MatrixXd& zeta, const ElteWeights&
   const double w = weights.elastic;
   const bool end_row = weights.laplacian == Laplacian::kRowNormalised;
 
-  step_gain_.setZero(n);
-  error_gain_.setZero(n);
-  feed_.setZero(n, d);
-  best_error_gain_.setZero(n);
-  best_error_feed_.setZero(n, d);
+  for (Eigen::VectorXd* gain : {&step_gain_, &error_gain_, &best_error_gain_}) gain->setZero(n);
+  for (Eigen::MatrixXd* feed : {&feed_, &best_error_feed_}) feed->setZero(n, d);
 
   const auto half_second_difference = [&zeta](Eigen::Index k, Eigen::Index j) {
     return 0.5 * ((zeta(k + 1, j) - zeta(k, j)) - (zeta(k, j) - zeta(k - 1, j)));
@@ -56,22 +53,22 @@ void EndpointSolver::build_gains(const Eigen::MatrixXd& zeta, const ElteWeights&
     best_error_feed_.row(k) = (-0.5 / C) * c.transpose();
     if (k == 1) break;
     const double S = w + A + 2.0 * B + C;
-    const double W = q + S;
-    const double Kv = q / W;
-    const double Ke = (C + B) / W;
+    const double inverse_W = 1.0 / (q + S);
+    const double Kv = q * inverse_W;
+    const double Ke = (C + B) * inverse_W;
     step_gain_[k - 1] = Kv;
     error_gain_[k - 1] = Ke;
     for (Eigen::Index j = 0; j < d; ++j) {
       const double h = half_second_difference(k - 1, j);
       const double g = h - a[j] + c[j];
-      feed_(k - 1, j) = 0.5 * g / W;
+      feed_(k - 1, j) = 0.5 * g * inverse_W;
       a[j] = h - Kv * g;
       c[j] -= Ke * g;
     }
-    const double next_det = q * (C * w + det) / W;
-    A = q * S / W;
+    const double next_det = q * (C * w + det) * inverse_W;
+    A = q * S * inverse_W;
     B = q * Ke;
-    C = (C * (q + w) + det) / W;
+    C = (C * (q + w) + det) * inverse_W;
     det = next_det;
   }
 }
@@ -86,22 +83,37 @@ void EndpointSolver::build_tables() {
   }
   for (Eigen::Index block = 1; block < n - 1; block += kRollOutBlock) {
     const Eigen::Index end = std::min(block + kRollOutBlock, n - 1);
-    const auto fill = [&](double v, double e, auto feed, auto error, auto step) {
-      for (Eigen::Index k = block; k < end; ++k) {
-        v = step_gain_[k] * v + error_gain_[k] * e + feed(k);
-        e -= v;
-        step[k + 1] = v;
-        error[k + 1] = e;
-      }
-    };
-    const auto no_feed = [](Eigen::Index) { return 0.0; };
-    fill(1.0, 0.0, no_feed, error_.from_step.data(), step_.from_step.data());
-    fill(0.0, 1.0, no_feed, error_.from_error.data(), step_.from_error.data());
-    for (Eigen::Index j = 0; j < d; ++j) {
-      fill(
-          0.0, 0.0, [&](Eigen::Index k) { return feed_(k, j); }, error_.offset.col(j).data(),
-          step_.offset.col(j).data());
-    }
+    fill_response(block, end);
+    for (Eigen::Index j = 0; j < d; ++j) fill_offset(block, end, j);
+  }
+}
+
+// To a unit step and, beside it, to a unit error at the block's first node, nothing being fed.
+void EndpointSolver::fill_response(Eigen::Index block, Eigen::Index end) {
+  double step_v = 1.0;
+  double step_e = 0.0;
+  double error_v = 0.0;
+  double error_e = 1.0;
+  for (Eigen::Index k = block; k < end; ++k) {
+    step_v = step_gain_[k] * step_v + error_gain_[k] * step_e;
+    step_e -= step_v;
+    error_v = step_gain_[k] * error_v + error_gain_[k] * error_e;
+    error_e -= error_v;
+    step_.from_step[k + 1] = step_v;
+    error_.from_step[k + 1] = step_e;
+    step_.from_error[k + 1] = error_v;
+    error_.from_error[k + 1] = error_e;
+  }
+}
+
+void EndpointSolver::fill_offset(Eigen::Index block, Eigen::Index end, Eigen::Index j) {
+  double v = 0.0;
+  double e = 0.0;
+  for (Eigen::Index k = block; k < end; ++k) {
+    v = step_gain_[k] * v + error_gain_[k] * e + feed_(k, j);
+    e -= v;
+    step_.offset(k + 1, j) = v;
+    error_.offset(k + 1, j) = e;
   }
 }
 
@@ -121,8 +133,9 @@ void EndpointSolver::check(Eigen::Index frozen, const Eigen::Ref<const Eigen::Ve
     throw std::invalid_argument("radius is " + std::to_string(radius) +
                                 ", must be finite and at least 0");
   }
-  if (!goal.allFinite() || !plan.middleRows(frozen - 2, 2).allFinite()) {
-    throw std::invalid_argument("goal or last frozen rows have a value that is not finite");
+  if (!is_within_magnitude(goal) || !is_within_magnitude(plan.middleRows(frozen - 2, 2))) {
+    throw std::invalid_argument(
+        "goal or last frozen rows have a value that is not finite or above 1e100");
   }
 }
 

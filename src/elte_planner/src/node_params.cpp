@@ -17,6 +17,7 @@ NodeParams load_node_params(const ros::NodeHandle& private_handle) {
   params.session.nodes = values.integer("nodes");
   params.session.weights.elastic = values.number("w_elastic");
   params.session.weights.bending = values.number("w_bending");
+  params.session.max_step = values.number("max_step");
   params.session.horizon_max = values.number("horizon_max");
   params.session.confidence = values.number("confidence");
   params.session.radius_min = values.number("radius_min");

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "elte_planner/elte_energy.hpp"
+
 namespace elte_planner {
 namespace {
 
@@ -66,11 +68,14 @@ void Obstacle::validate(Eigen::Index dimensions) const {
     throw std::invalid_argument("obstacle has " + std::to_string(centre.size()) +
                                 " coordinates, must have " + std::to_string(dimensions));
   }
-  if (!centre.allFinite()) throw std::invalid_argument("obstacle's centre is not finite");
+  if (!is_within_magnitude(centre)) {
+    throw std::invalid_argument("obstacle's centre is not finite or above 1e100");
+  }
   const double least = is_box ? half_widths.minCoeff() : radius;
-  if (!(least >= 0.0) || (is_box && !half_widths.allFinite()) || !std::isfinite(radius)) {
+  if (!(least >= 0.0) || (is_box && !is_within_magnitude(half_widths)) ||
+      !(radius <= kMaxMagnitude)) {
     throw std::invalid_argument("obstacle has a size of " + std::to_string(least) +
-                                ", must be finite and at least 0");
+                                ", must be within [0, 1e100]");
   }
 }
 

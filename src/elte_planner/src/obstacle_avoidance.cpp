@@ -10,6 +10,20 @@ namespace {
 
 using Index = Eigen::Index;
 
+AvoidanceStatus without_obstacles(EditStatus status) {
+  switch (status) {
+    case EditStatus::kSolved:
+      return AvoidanceStatus::kSolved;
+    case EditStatus::kInfeasible:
+      return AvoidanceStatus::kInfeasible;
+    case EditStatus::kIllPosed:
+      return AvoidanceStatus::kIllPosed;
+    case EditStatus::kIterationLimit:
+      break;
+  }
+  return AvoidanceStatus::kIterationLimit;
+}
+
 class Avoidance {
  public:
   Avoidance(const AvoidanceProblem& problem, const AvoidanceSettings& settings)
@@ -21,14 +35,15 @@ class Avoidance {
 
   AvoidanceSolution solve() {
     EditSolver().solve(problem_.edit, {}, best_.plan);
-    best_.status = best_.plan.status;
+    best_.status = without_obstacles(best_.plan.status);
     best_.message = best_.plan.message;
-    if (best_.status != EditStatus::kSolved) return best_;
-    best_.status = EditStatus::kInfeasible;
+    if (best_.status != AvoidanceStatus::kSolved) return best_;
+    best_.status = AvoidanceStatus::kNotFound;
     const EditSolution unobstructed = best_.plan;
     explore(unobstructed);
-    if (best_.status == EditStatus::kInfeasible) {
-      best_.message = "no way found around obstacle " + std::to_string(last_hit_);
+    if (best_.status == AvoidanceStatus::kNotFound) {
+      best_.message = "no way found around obstacle " + std::to_string(last_hit_) + ", " +
+                      std::to_string(choices_) + " choices of sides tried";
     }
     best_.choices = choices_;
     return best_;
@@ -93,8 +108,8 @@ class Avoidance {
     const std::size_t hit = descend(plan, found);
     if (hit == problem_.obstacles.size()) {
       const bool better =
-          best_.status == EditStatus::kInfeasible || found.plan.energy < best_.plan.energy;
-      if (found.status == EditStatus::kSolved && better) best_ = found;
+          best_.status == AvoidanceStatus::kNotFound || found.plan.energy < best_.plan.energy;
+      if (found.status == AvoidanceStatus::kSolved && better) best_ = found;
       return;
     }
     last_hit_ = hit;
@@ -124,7 +139,7 @@ class Avoidance {
       if (clear && found.last_move <= settings_.tolerance * extent_) break;
     }
     if (clear) {
-      found.status = EditStatus::kSolved;
+      found.status = AvoidanceStatus::kSolved;
       found.plan = plan;
       found.clearance =
           polyline_clearance(plan.y.bottomRows(plan.y.rows() - first_ + 1), problem_.obstacles);

@@ -28,9 +28,11 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
   if (!std::isfinite(request.radius) || request.radius < 0.0) {
     refuse("radius is " + std::to_string(request.radius) + ", must be finite and at least 0");
   }
-  if (!request.goal.allFinite()) refuse("goal has a coordinate that is not finite");
-  if (!request.previous.topRows(request.frozen).allFinite()) {
-    refuse("frozen rows of the previous plan have a coordinate that is not finite");
+  if (!is_within_magnitude(request.goal)) {
+    refuse("goal has a coordinate that is not finite or above 1e100");
+  };
+  if (!is_within_magnitude(request.previous.topRows(request.frozen))) {
+    refuse("frozen rows of the previous plan have a coordinate that is not finite or above 1e100");
   }
 }
 
@@ -46,11 +48,17 @@ PlanResult all_frozen(const PlanRequest& request) {
 
 std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
                                                  const Eigen::MatrixXd& demonstration,
-                                                 const ElteWeights& weights) {
-  if (name == "elte") return std::make_unique<ElteSkillPlanner>(demonstration, weights);
+                                                 const ElteWeights& weights, double max_step) {
+  if (name == "elte") {
+    return std::make_unique<ElteSkillPlanner>(demonstration, weights, name, max_step);
+  }
   if (name == "lte") {
     const ElteWeights shape_only{0.0, 0.0, Laplacian::kRowNormalised};
-    return std::make_unique<ElteSkillPlanner>(demonstration, shape_only, "lte");
+    return std::make_unique<ElteSkillPlanner>(demonstration, shape_only, name, max_step);
+  }
+  if ((name == "elastic_map" || name == "dmp") && !std::isinf(max_step)) {
+    throw std::invalid_argument("max_step is " + std::to_string(max_step) + " m, but planner '" +
+                                name + "' keeps no bound on steps");
   }
   if (name == "elastic_map") {
     return std::make_unique<ElasticMapSkillPlanner>(demonstration, weights);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "elte_planner/confidence_radius.hpp"
@@ -12,6 +13,7 @@ namespace elte_planner {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_range(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
@@ -40,6 +42,7 @@ std::vector<Eigen::Quaterniond> orientations(const std::vector<TimedPose>& sampl
 void SessionParams::validate() const {
   check_range("nodes", nodes, 3, 10000);
   weights.validate();
+  check_range("max_step", max_step, 0.0, 1.0);
   check_range("horizon_max", horizon_max, 0.0, 60.0);
   if (!(confidence > 0.0 && confidence < 1.0)) {
     throw std::invalid_argument("confidence is " + std::to_string(confidence) +
@@ -75,7 +78,8 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
           static_cast<std::size_t>((params.validate(), params.nodes)))),
       goal_in_target_(demonstration_.goal_in_target()),
       demonstrated_orientations_(orientations(demonstration_.samples())),
-      planner_(make_skill_planner(params.planner, demonstration_.positions(), params.weights)) {}
+      planner_(make_skill_planner(params.planner, demonstration_.positions(), params.weights,
+                                  params.max_step > 0.0 ? params.max_step : kInfinity)) {}
 
 void SkillSession::reset() { plan_.reset(); }
 

@@ -164,6 +164,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("planner is 'bezier'", planner="bezier")
         self.check("framework = yes", framework="yes")
         self.check("horizon_max is -1", horizon_max=-1)
+        self.check("max_step is -1", max_step=-1)
         self.check("confidence is 1", confidence=1.0)
         self.check("radius_min is -", radius_min=-0.01)
         self.check("radius_max is 5", radius_max=5.0)

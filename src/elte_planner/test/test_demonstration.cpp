@@ -74,6 +74,25 @@ TEST(DouglasPeucker, TakesAnyNumberUpToAllOfTheSamples) {
     ASSERT_EQ(fewer.samples().size(), nodes);
     ASSERT_EQ(fewer.samples().back().time, samples.back().time);
   }
+  for (const double tolerance : {0.5, 0.05, 1e-3, 0.0}) {
+    const Demonstration fewer = wave.thinned_by_douglas_peucker(tolerance);
+    const std::size_t count = fewer.samples().size();
+    ASSERT_LE(count, tolerance > 0.0 ? 59u : 60u) << tolerance;
+    for (const TimedPose& sample : samples) {
+      double nearest = 1e9;
+      for (std::size_t k = 1; k < count; ++k) {
+        const Eigen::Vector3d& from = fewer.samples()[k - 1].pose.position;
+        const Eigen::Vector3d along = fewer.samples()[k].pose.position - from;
+        const Eigen::Vector3d offset = sample.pose.position - from;
+        const double share =
+            std::clamp(along.dot(offset) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
+        nearest = std::min(nearest, (offset - share * along).norm());
+      }
+      ASSERT_LE(nearest, tolerance + 1e-12);
+    }
+  }
+  EXPECT_THROW((void)wave.thinned_by_douglas_peucker(-1e-9), std::invalid_argument);
+  EXPECT_THROW((void)wave.thinned_by_douglas_peucker(std::nan("")), std::invalid_argument);
   EXPECT_THROW((void)wave.resampled_by_douglas_peucker(2), std::invalid_argument);
   EXPECT_THROW((void)wave.resampled_by_douglas_peucker(61), std::invalid_argument);
 }

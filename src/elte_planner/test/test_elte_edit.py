@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python module, its example and the commands elte_edit and paper_figures."""
 import ast
+import inspect
 import json
 import os
 import subprocess
@@ -54,6 +55,8 @@ class Module(unittest.TestCase):
             mean = elte_planner.combine([demonstration, demonstration], 30, alignment=alignment)
             np.testing.assert_allclose(
                 mean.positions, demonstration.resampled_by_arc_length(30).positions, atol=1e-12)
+        thinned = demonstration.thinned_by_douglas_peucker(1e-3)
+        self.assertLess(len(thinned.times), len(demonstration.times))
         with self.assertRaisesRegex(ValueError, "alignment is 'x'"):
             elte_planner.combine([demonstration], 30, alignment="x")
 
@@ -69,7 +72,7 @@ class Module(unittest.TestCase):
             elte_planner.polyline_clearance(solution.y[4:], obstacles), 0.05 - 1e-12)
         obstacles.append(elte_planner.disc_obstacle(np.array([-1.1, 0.0]), 0.01))
         blocked = elte_planner.avoid(zeta, obstacles, 0.05, goal, zeta[:5])
-        self.assertEqual(blocked.status, "infeasible")
+        self.assertEqual(blocked.status, "not_found")
         self.assertEqual(blocked.y.size, 0)
         with self.assertRaisesRegex(ValueError, "clearance is 0"):
             elte_planner.avoid(zeta, obstacles, 0.0)
@@ -84,11 +87,13 @@ class Module(unittest.TestCase):
 
 class Hints(unittest.TestCase):
     def test_name_everything_in_the_module_with_its_arguments(self):
-        with open(os.path.join(HERE, "..", "python", "elte_planner.pyi"), encoding="utf-8") as file:
+        path = os.path.join(HERE, "..", "python", "elte_planner", "__init__.pyi")
+        with open(path, encoding="utf-8") as file:
             tree = ast.parse(file.read())
         hinted = {node.name: node for node in tree.body
                   if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-        self.assertEqual(set(hinted), {n for n in dir(elte_planner) if not n.startswith("_")})
+        self.assertEqual(set(hinted), {n for n, value in vars(elte_planner).items()
+                                       if not (n.startswith("_") or inspect.ismodule(value))})
         for name, node in hinted.items():
             value = getattr(elte_planner, name)
             if isinstance(node, ast.ClassDef):
@@ -97,6 +102,9 @@ class Hints(unittest.TestCase):
                                  {n for n in dir(value) if not n.startswith("_")}, name)
             else:
                 hint = [a.arg for a in node.args.args + node.args.kwonlyargs]
+                if inspect.isfunction(value):
+                    self.assertEqual(hint, list(inspect.signature(value).parameters))
+                    continue
                 signature = value.__doc__.splitlines()[0]
                 for argument in hint:
                     self.assertIn(argument + ":", signature)
@@ -181,6 +189,44 @@ class Command(unittest.TestCase):
             self.assertEqual(solution["status"], "solved")
             self.assertEqual(solution["y"][39], [-1.1, 0.0])
 
+    def test_solves_problems_with_half_spaces_and_obstacles(self):
+        problem = {"zeta": arc().tolist(), "wE": 0.001, "wR": 0.001, "n_fixed": 5,
+                   "y_fixed": arc()[:5].tolist(),
+                   "constraints": [{"j": 39, "p": [-1.1, 0.0], "r": 0.0},
+                                   {"j": 30, "p": [-0.7, 0.0], "normal": [1.0, 0.0]}]}
+        around = dict(problem, clearance=0.05, obstacles=[
+            {"centre": [0.0, 1.0], "radius": 0.1},
+            {"centre": [-1.0, 0.4], "half_widths": [0.05, 0.1]}])
+        with open(self.path("problem.json"), "w", encoding="utf-8") as file:
+            json.dump([problem, around], file)
+        run = self.run_command("--problem", self.path("problem.json"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for solution in json.loads(run.stdout)["problems"]:
+            self.assertEqual(solution["status"], "solved", solution["message"])
+            self.assertLessEqual(solution["y"][30][0], -0.7 + 1e-12)
+        self.assertGreaterEqual(solution["clearance"], 0.05 - 1e-12)
+        self.assertLess(solution["kkt_residual"], 1e-12)
+
+    def test_combines_and_thins_demonstrations_and_avoids_obstacles(self):
+        plan = self.path("plan.csv")
+        for nodes, count in ((("--nodes", "30"), 30), (("--thin-to", "12"), 12)):
+            run = self.run_command(DEMONSTRATION, DEMONSTRATION, *nodes, "--out", plan)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(len(np.loadtxt(plan, delimiter=",", skiprows=1)), count)
+        run = self.run_command(DEMONSTRATION, "--thin", "0.002", "--out", plan)
+        self.assertLess(len(np.loadtxt(plan, delimiter=",", skiprows=1)), 40, run.stderr)
+        sphere = ("--sphere", "0.45", "0.03", "0.42", "0.02", "--box", "0.45", "-0.1", "0.42",
+                  "0.02", "0.02", "0.02", "--clearance", "0.03")
+        run = self.run_command(DEMONSTRATION, *sphere, "--out", plan)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        obstacle = elte_planner.disc_obstacle(np.array([0.45, 0.03, 0.42]), 0.02)
+        y = np.loadtxt(plan, delimiter=",", skiprows=1)[:, 1:]
+        self.assertGreaterEqual(elte_planner.polyline_clearance(y, [obstacle]), 0.03 - 1e-12)
+        run = self.run_command(DEMONSTRATION, "--sphere", "0.5", "0", "0.5", "0.1",
+                               "--clearance", "0.01")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("not_found: no way found around obstacle 0", run.stderr)
+
     def refuse(self, expected, *arguments):
         run = self.run_command(*arguments)
         self.assertEqual(run.returncode, 2, run.stdout)
@@ -195,6 +241,15 @@ class Command(unittest.TestCase):
         self.refuse("nodes is 2", DEMONSTRATION, "--nodes", "2")
         self.refuse("planner is 'x'", DEMONSTRATION, "--planner", "x")
         self.refuse("either")
+        self.refuse("--clearance belongs", DEMONSTRATION, "--clearance", "0.1")
+        self.refuse("clearance is 0", DEMONSTRATION, "--sphere", *"1111", "--clearance", "0")
+        self.refuse("executed is 1", DEMONSTRATION, "--sphere", *"1111", "--clearance", "1",
+                    "--executed", "1")
+        self.refuse("tolerance is -1", DEMONSTRATION, "--thin", "-1")
+        self.refuse("within [3, 41]", DEMONSTRATION, "--thin-to", "42")
+        self.refuse("max_step is 0", DEMONSTRATION, "--max-step", "0")
+        self.refuse("needs --topic", self.path("none.bag"))
+        self.refuse("none.bag", self.path("none.bag"), "--topic", "hand")
         bad = [
             ("null", "a problem must be an object"), ("{", "Expecting"), ("[1]", "must be an object"),
             ('{"zeta": [[0]]}', "lacks 'wE'"),
@@ -207,6 +262,10 @@ class Command(unittest.TestCase):
             ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "constraints": [{"j": 1}]}', "lacks 'p'"),
             ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "constraints": [{"j": 9, "p": [0], "r": 0}]}',
              "node 9"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "obstacles": [{"centre": [9], "radius": 1}]}',
+             "lacks 'clearance'"),
+            ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "clearance": 1, "obstacles": [{"radius": 1}]}',
+             "obstacle 0 lacks 'centre'"),
         ]
         for text, expected in bad:
             with open(self.path("bad.json"), "w", encoding="utf-8") as file:

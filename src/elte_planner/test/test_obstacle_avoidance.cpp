@@ -96,16 +96,16 @@ TEST(Obstacle, DistanceFromASegmentIsThatOfItsNearestSample) {
 TEST(ObstacleAvoidance, KeepsTheClearanceAllAlongThePolyline) {
   std::mt19937 random(2);
   int bent = 0;
-  int infeasible = 0;
+  int not_found = 0;
   for (int i = 0; i < 300; ++i) {
     const AvoidanceProblem problem = random_problem(random);
     const AvoidanceSolution solution = avoid_obstacles(problem);
-    if (solution.status == EditStatus::kInfeasible) {
-      ++infeasible;
+    if (solution.status == AvoidanceStatus::kNotFound) {
+      ++not_found;
       ASSERT_NE(solution.message.find("obstacle"), std::string::npos);
       continue;
     }
-    ASSERT_EQ(solution.status, EditStatus::kSolved) << i << ": " << solution.message;
+    ASSERT_EQ(solution.status, AvoidanceStatus::kSolved) << i << ": " << solution.message;
     const Eigen::MatrixXd& y = solution.plan.y;
     ASSERT_EQ(y.topRows(3), problem.edit.fixed);
     const double sampled = sampled_clearance(y, 2, problem.obstacles);
@@ -117,14 +117,14 @@ TEST(ObstacleAvoidance, KeepsTheClearanceAllAlongThePolyline) {
     if (solution.passes > 1) ++bent;
   }
   EXPECT_GT(bent, 150);
-  EXPECT_LT(infeasible, 45);
+  EXPECT_LT(not_found, 45);
 }
 
 TEST(ObstacleAvoidance, ProtectsASegmentWhoseNodesAreFarApart) {
   AvoidanceProblem problem = straight(6);  // the obstacle fits between two nodes
   problem.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 0.01), 0.03)};
   const AvoidanceSolution solution = avoid_obstacles(problem);
-  ASSERT_EQ(solution.status, EditStatus::kSolved) << solution.message;
+  ASSERT_EQ(solution.status, AvoidanceStatus::kSolved) << solution.message;
   EXPECT_GE(sampled_clearance(solution.plan.y, 1, problem.obstacles), problem.clearance - 1e-11);
   EXPECT_NEAR(solution.clearance, problem.clearance, 1e-11);
 }
@@ -134,7 +134,7 @@ TEST(ObstacleAvoidance, PassesOnTheSideOfLessEnergy) {
     AvoidanceProblem problem = straight(50);
     problem.obstacles = {Obstacle::box(Eigen::Vector2d(0.5, offset), Eigen::Vector2d(0.1, 0.1))};
     const AvoidanceSolution solution = avoid_obstacles(problem);
-    ASSERT_EQ(solution.status, EditStatus::kSolved) << solution.message;
+    ASSERT_EQ(solution.status, AvoidanceStatus::kSolved) << solution.message;
     EXPECT_LT(solution.plan.y.col(1).sum() * offset, 0.0);
     EXPECT_EQ(solution.choices, 3);
   }
@@ -144,7 +144,7 @@ TEST(ObstacleAvoidance, RestsWhereEveryTouchedPlaneIsOptimal) {
   AvoidanceProblem problem = straight(40);
   problem.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 0.02), 0.1)};
   const AvoidanceSolution solution = avoid_obstacles(problem);
-  ASSERT_EQ(solution.status, EditStatus::kSolved);
+  ASSERT_EQ(solution.status, AvoidanceStatus::kSolved);
   EXPECT_LE(solution.last_move, 1e-9);
   EXPECT_LE(solution.plan.kkt_residual, 1e-12);
   EXPECT_FALSE(solution.plan.active.empty());
@@ -154,18 +154,18 @@ TEST(ObstacleAvoidance, LeavesAPlanAloneThatIsClear) {
   AvoidanceProblem problem = straight(30);
   problem.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 0.5), 0.1)};
   const AvoidanceSolution solution = avoid_obstacles(problem);
-  ASSERT_EQ(solution.status, EditStatus::kSolved);
+  ASSERT_EQ(solution.status, AvoidanceStatus::kSolved);
   EXPECT_LE((solution.plan.y - solve(problem.edit).y).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_EQ(solution.choices, 1);
 }
 
-TEST(ObstacleAvoidance, AGoalOrAStartInsideAnObstacleIsInfeasible) {
+TEST(ObstacleAvoidance, FindsNoWayToAGoalOrFromAStartInsideAnObstacle) {
   for (const double x : {1.0, 0.03}) {
     AvoidanceProblem problem = straight(30);
     problem.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 1.0), 0.1),
                          Obstacle::disc(Eigen::Vector2d(x, 0.0), 0.05)};
     const AvoidanceSolution solution = avoid_obstacles(problem);
-    EXPECT_EQ(solution.status, EditStatus::kInfeasible) << x;
+    EXPECT_EQ(solution.status, AvoidanceStatus::kNotFound) << x;
     EXPECT_NE(solution.message.find("obstacle 1"), std::string::npos) << solution.message;
   }
 }

@@ -11,6 +11,10 @@
 namespace elte_planner {
 namespace {
 
+Eigen::VectorXd end_of(const PlanResult& plan) {
+  return plan.positions.row(plan.positions.rows() - 1).transpose();
+}
+
 class SkillPlannerTest : public testing::TestWithParam<const char*> {
  protected:
   SkillPlannerTest() {
@@ -19,10 +23,6 @@ class SkillPlannerTest : public testing::TestWithParam<const char*> {
     planner_ = make_skill_planner(GetParam(), demonstration_, {});
     request_.previous = demonstration_;
     request_.goal = demonstration_.row(49).transpose() + Eigen::Vector3d(0.05, -0.1, 0.02);
-  }
-
-  Eigen::VectorXd end(const PlanResult& plan) const {
-    return plan.positions.row(plan.positions.rows() - 1).transpose();
   }
 
   Eigen::MatrixXd demonstration_;
@@ -40,7 +40,7 @@ TEST_P(SkillPlannerTest, KeepsFrozenRowsAndReachesTheBallOrSaysTheSlack) {
       const PlanResult plan = planner_->plan(request_);
       ASSERT_EQ(plan.positions.rows(), 50);
       EXPECT_EQ(plan.positions.topRows(frozen), demonstration_.topRows(frozen));
-      const double miss = (end(plan) - request_.goal).lpNorm<1>();
+      const double miss = (end_of(plan) - request_.goal).lpNorm<1>();
       EXPECT_EQ(plan.status, plan.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved);
       EXPECT_LE(miss, radius + plan.slack + 1e-12);
       if (planner_->name() != "dmp") {
@@ -77,6 +77,44 @@ TEST_P(SkillPlannerTest, RefusesRequestsThatDoNotFit) {
   refused([](PlanRequest& r) { r.goal[1] = std::nan(""); });
   refused([](PlanRequest& r) { r.previous(0, 0) = std::nan(""); });
   refused([](PlanRequest& r) { r.previous = Eigen::MatrixXd::Zero(49, 3); });
+}
+
+TEST(StepBound, IsKeptAndOpensTheRadiusOnlyByWhatIsMissing) {
+  std::mt19937 random(3);
+  int relaxed = 0;
+  int solved = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::MatrixXd zeta = random_demonstration(30, 3, random);
+    const double max_step =
+        1.2 * (zeta.bottomRows(29) - zeta.topRows(29)).rowwise().lpNorm<1>().maxCoeff();
+    const Eigen::Index frozen = std::uniform_int_distribution<Eigen::Index>(2, 29)(random);
+    const PlanRequest request{zeta, frozen,
+                              zeta.row(29).transpose() + random_vector(3, 0.5, random), 0.01};
+    const PlanResult plan =
+        make_skill_planner(i % 2 == 0 ? "elte" : "lte", zeta, {}, max_step)->plan(request);
+    ASSERT_NE(plan.status, PlanStatus::kFailed) << i << ": " << plan.message;
+    ASSERT_EQ(plan.positions.topRows(frozen), zeta.topRows(frozen));
+    for (Eigen::Index k = frozen; k < 30; ++k) {
+      ASSERT_LE((plan.positions.row(k) - plan.positions.row(k - 1)).lpNorm<1>(), max_step + 1e-11);
+    }
+    ASSERT_LE((end_of(plan) - request.goal).lpNorm<1>(), 0.01 + plan.slack + 1e-11);
+    const double distance = (request.goal - zeta.row(frozen - 1).transpose()).lpNorm<1>();
+    const double missing = distance - 0.01 - max_step * static_cast<double>(30 - frozen);
+    ASSERT_NEAR(plan.slack, std::max(missing, 0.0), 1e-5) << i;
+    ASSERT_EQ(plan.status, plan.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved);
+    ++(plan.slack > 0.0 ? relaxed : solved);
+  }
+  EXPECT_GT(relaxed, 50);
+  EXPECT_GT(solved, 50);
+}
+
+TEST(StepBound, IsRefusedByPlannersThatKeepNone) {
+  std::mt19937 random(4);
+  const Eigen::MatrixXd zeta = random_demonstration(30, 3, random);
+  for (const char* name : {"dmp", "elastic_map"}) {
+    EXPECT_THROW((void)make_skill_planner(name, zeta, {}, 0.1), std::invalid_argument);
+  }
+  EXPECT_THROW((void)make_skill_planner("elte", zeta, {}, 0.0), std::invalid_argument);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planners, SkillPlannerTest,

@@ -166,6 +166,35 @@ TEST(SkillSession, SaysTheSlackWhenAllNodesAreFrozen) {
   EXPECT_GT(answer.slack, 0.1);
 }
 
+TEST(SkillSession, OpensTheRadiusWhenTheTargetIsBeyondReach) {
+  SessionParams slow = params();
+  slow.max_step = 0.02;
+  SkillSession session(slow, reach());
+  Forecast forecast = drifting();
+  ASSERT_EQ(session.answer(at(2, 1.0), &forecast).status, AnswerStatus::kSolved);
+  for (TargetPrediction& p : forecast.predictions) p.target.position.x() += 0.5;
+  const SkillAnswer answer = session.answer(at(40, 0.2), &forecast);
+  ASSERT_EQ(answer.status, AnswerStatus::kRelaxed) << answer.message;
+  EXPECT_FALSE(answer.message.empty());
+  EXPECT_GT(answer.slack, 0.1);
+  for (std::size_t k = 40; k < 50; ++k) {
+    EXPECT_LE((answer.poses[k].pose.position - answer.poses[k - 1].pose.position).lpNorm<1>(),
+              0.02 + 1e-12);
+  }
+}
+
+TEST(SkillSession, KeepsTheLastPlanWhenASolveFails) {
+  SkillSession session(params(), reach());
+  const Forecast forecast = drifting();
+  const SkillAnswer before = session.answer(at(2, 1.0), &forecast);
+  Forecast absurd = forecast;
+  for (TargetPrediction& p : absurd.predictions) p.target.position.setConstant(1e308);
+  const SkillAnswer kept = session.answer(at(10, 0.8), &absurd);
+  ASSERT_EQ(kept.status, AnswerStatus::kKept);
+  EXPECT_FALSE(kept.message.empty());
+  EXPECT_EQ(kept.poses.back().pose.position, before.poses.back().pose.position);
+}
+
 TEST(SkillSession, AdaptsOnceToTheFirstTrackedTargetWithoutTheFramework) {
   SessionParams blind = params();
   blind.framework = false;
@@ -215,6 +244,11 @@ TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
   refused("nodes", [](SessionParams& p) { p.nodes = -1; });
   refused("w_elastic", [](SessionParams& p) { p.weights.elastic = -1.0; });
   refused("w_bending", [](SessionParams& p) { p.weights.bending = std::nan(""); });
+  refused("max_step", [](SessionParams& p) { p.max_step = -0.1; });
+  refused("max_step", [](SessionParams& p) {
+    p.planner = "dmp";
+    p.max_step = 0.1;
+  });
   refused("horizon_max", [](SessionParams& p) { p.horizon_max = std::nan(""); });
   refused("confidence", [](SessionParams& p) { p.confidence = 1.0; });
   refused("radius_min", [](SessionParams& p) { p.radius_min = -0.1; });

@@ -64,7 +64,14 @@ class Demonstration {
   // many samples.
   [[nodiscard]] Demonstration resampled_by_douglas_peucker(std::size_t nodes) const;
 
+  // As many of them, but at least kMinSamples, as leave no sample farther than `tolerance` (m, >=
+  // 0) from the lines between those taken.
+  [[nodiscard]] Demonstration thinned_by_douglas_peucker(double tolerance) const;
+
  private:
+  template <typename IsEnough>
+  Demonstration subdivided(IsEnough&& is_enough) const;
+
   std::vector<TimedPose> samples_;
   std::string frame_;
   std::string child_frame_;

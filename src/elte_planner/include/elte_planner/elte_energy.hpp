@@ -32,7 +32,11 @@ struct ElteWeights {
   double decay_nodes() const;
 };
 
-// Throws unless zeta has at least 3 nodes, 1 dimension and only finite values.
+// Coordinates beyond it are refused like infinite ones: their squares and sums would be.
+constexpr double kMaxMagnitude = 1e100;
+[[nodiscard]] bool is_within_magnitude(const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+// Throws unless zeta has at least 3 nodes, 1 dimension and only values within the magnitude.
 void validate_demonstration_nodes(const Eigen::Ref<const Eigen::MatrixXd>& zeta);
 
 [[nodiscard]] double energy(const Eigen::Ref<const Eigen::MatrixXd>& zeta,
@@ -43,6 +47,11 @@ void validate_demonstration_nodes(const Eigen::Ref<const Eigen::MatrixXd>& zeta)
                                    const ElteWeights& weights,
                                    const Eigen::Ref<const Eigen::MatrixXd>& y, Eigen::Index node,
                                    Eigen::Index dimension);
+
+// The same at all nodes from `from` on, in their rows of `result` (nodes x dimensions).
+void half_gradient(const Eigen::Ref<const Eigen::MatrixXd>& zeta, const ElteWeights& weights,
+                   const Eigen::Ref<const Eigen::MatrixXd>& y, Eigen::Index from,
+                   Eigen::MatrixXd& result);
 
 // Euclidean projection of `point` on {x : |x - centre|_1 <= radius}, in place, no allocation.
 void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double radius,

@@ -3,6 +3,9 @@
 // Elastic Laplacian trajectory editing behind the planners' common interface. Without elastic and
 // bending terms and with the row-normalised Laplacian it is Laplacian trajectory editing (LTE,
 // Nierhoff, Hirche, Nakamura 2016).
+//
+// A bound s on the steps leaves only the ball of radius m s around the last frozen node to the m
+// free ones. When the goal's ball is beyond it, its radius is opened by what is missing.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +20,20 @@ namespace elte_planner {
 class ElteSkillPlanner : public SkillPlanner {
  public:
   ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
-                   std::string name = "elte");
+                   std::string name, double max_step);
 
   std::string name() const override { return name_; }
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request) const override;
 
  private:
+  bool keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const;
+  PlanResult plan_with_step_bound(const PlanRequest& request) const;
+
   Eigen::MatrixXd demonstration_;
   ElteWeights weights_;
   std::string name_;
+  double max_step_;
   EndpointSolver solver_;
 };
 

@@ -40,6 +40,8 @@ class EndpointSolver {
  private:
   void build_gains(const Eigen::MatrixXd& zeta, const ElteWeights& weights);
   void build_tables();
+  void fill_response(Eigen::Index block, Eigen::Index end);
+  void fill_offset(Eigen::Index block, Eigen::Index end, Eigen::Index j);
   void check(Eigen::Index frozen, const Eigen::Ref<const Eigen::VectorXd>& goal, double radius,
              const Eigen::Ref<const Eigen::MatrixXd>& plan) const;
   void roll_out(Eigen::Index frozen, double end, Eigen::Index dimension, double* plan) const;

@@ -36,8 +36,16 @@ struct AvoidanceSettings {
   double tolerance = 1e-9;  // of rest, relative to the extent of the demonstration
 };
 
+enum class AvoidanceStatus {
+  kSolved,
+  kNotFound,        // no way on any side that was tried; that is no proof that there is none
+  kInfeasible,      // already without the obstacles, and this is proved
+  kIllPosed,        // without the obstacles
+  kIterationLimit,  // numerical failure
+};
+
 struct AvoidanceSolution {
-  EditStatus status = EditStatus::kIllPosed;
+  AvoidanceStatus status = AvoidanceStatus::kIllPosed;
   std::string message;     // one line when not solved
   EditSolution plan;       // of the last convex problem
   double clearance = 0.0;  // of the polyline from the last fixed row on
@@ -46,8 +54,7 @@ struct AvoidanceSolution {
   int choices = 0;         // tried
 };
 
-// Throws std::invalid_argument for an invalid problem. Infeasible: no way was found on any side, or
-// the problem without obstacles is infeasible already; the message says which.
+// Throws std::invalid_argument for an invalid problem.
 [[nodiscard]] AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
                                                 const AvoidanceSettings& settings = {});
 

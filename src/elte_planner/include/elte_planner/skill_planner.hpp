@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -54,9 +55,11 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
 // the ball, else relaxed by what is missing.
 [[nodiscard]] PlanResult all_frozen(const PlanRequest& request);
 
-// Throws std::invalid_argument, listing the known names, when `name` is none of them.
-[[nodiscard]] std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
-                                                               const Eigen::MatrixXd& demonstration,
-                                                               const ElteWeights& weights);
+// max_step: greatest l1 distance of consecutive nodes that are not frozen, m, above 0; only elte
+// and lte can keep one. Throws std::invalid_argument, listing the known names when `name` is none
+// of them.
+[[nodiscard]] std::unique_ptr<SkillPlanner> make_skill_planner(
+    const std::string& name, const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
+    double max_step = std::numeric_limits<double>::infinity());
 
 }  // namespace elte_planner

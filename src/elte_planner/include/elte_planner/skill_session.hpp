@@ -44,6 +44,7 @@ struct SessionParams {
   bool framework = true;  // false: adapt once, to the first tracked forecast
   int nodes = 0;          // of the plan, 3 .. 10000
   ElteWeights weights;
+  double max_step = 0.0;     // m, greatest l1 distance of consecutive nodes; 0: no bound
   double horizon_max = 0.0;  // s, farthest look ahead, within [0, 60]
   double confidence = 0.0;   // probability of the end point's l1 ball, within (0, 1)
   double radius_min = 0.0;   // m

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Demonstrations from bags. Needs rosbag only when a bag is read."""
+import numpy as np
+
+from elte_planner._core import Demonstration
+
+
+def _row(pose):
+    return [pose.position.x, pose.position.y, pose.position.z, pose.orientation.x,
+            pose.orientation.y, pose.orientation.z, pose.orientation.w]
+
+
+def _messages(path, topic):
+    import rosbag
+    try:
+        with rosbag.Bag(path) as bag:
+            found = [message for _, message, _ in bag.read_messages(topics=["/" + topic.lstrip("/")])]
+    except rosbag.ROSBagException as error:
+        raise ValueError(f"{path}: {error}") from None
+    if not found:
+        raise ValueError(f"{path}: nothing on topic '{topic}'")
+    return found
+
+
+def _expect(messages, kind, path, topic):
+    if messages[0]._type != kind:
+        raise ValueError(f"{path}: topic '{topic}' is a {messages[0]._type}, must be a {kind}")
+
+
+def _rotation(x, y, z, w):
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def _target_of_plan(last, goal_in_target):
+    """Target T with T * goal_in_target = last, all x y z qx qy qz qw."""
+    ax, ay, az, aw = last[3:]
+    bx, by, bz, bw = [-goal_in_target[3], -goal_in_target[4], -goal_in_target[5],
+                      goal_in_target[6]]
+    turn = np.array([aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+                     aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz])
+    turn /= np.linalg.norm(turn)
+    return np.concatenate([last[:3] - _rotation(*turn) @ goal_in_target[:3], turn])
+
+
+def load_bag(path, topic, target_topic=None):
+    """Demonstration from a topic of a bag: geometry_msgs/PoseStamped, one message per sample, or
+    prf_msgs/SkillTrajectory, of which the last plan is taken, with its target.
+
+    target_topic: geometry_msgs/PoseStamped in the same frame, of which the last is the target's
+    pose. Without it the target of poses is taken to be where the demonstration ends. Raises
+    ValueError with file, topic and reason; ImportError without rosbag.
+    """
+    path = str(path)
+    messages = _messages(path, topic)
+    if messages[0]._type == "prf_msgs/SkillTrajectory":
+        plans = [message for message in messages if message.poses]
+        if not plans:
+            raise ValueError(f"{path}: no plan on topic '{topic}'")
+        frame = plans[-1].header.frame_id
+        times = [duration.to_sec() for duration in plans[-1].time_from_start]
+        rows = np.array([_row(pose) for pose in plans[-1].poses])
+        target = _target_of_plan(rows[-1], np.array(_row(plans[-1].goal_in_target)))
+    else:
+        _expect(messages, "geometry_msgs/PoseStamped", path, topic)
+        frame = messages[0].header.frame_id
+        if any(message.header.frame_id != frame for message in messages):
+            raise ValueError(f"{path}: topic '{topic}' is in several frames, must be in one")
+        start = messages[0].header.stamp
+        times = [(message.header.stamp - start).to_sec() for message in messages]
+        rows = np.array([_row(message.pose) for message in messages])
+        target = rows[-1]
+    if target_topic is not None:
+        seen = _messages(path, target_topic)
+        _expect(seen, "geometry_msgs/PoseStamped", path, target_topic)
+        if seen[-1].header.frame_id != frame:
+            raise ValueError(f"{path}: topic '{target_topic}' is in frame "
+                             f"'{seen[-1].header.frame_id}', must be in '{frame}'")
+        target = np.array(_row(seen[-1].pose))
+    try:
+        return Demonstration(np.array(times), rows[:, :3], rows[:, 3:], frame, topic, target)
+    except ValueError as error:
+        raise ValueError(f"{path}: topic '{topic}': {error}") from None
