@@ -12,7 +12,7 @@
 namespace elte_planner {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_demonstration(const std::string& what) {
   throw std::invalid_argument("demonstration: " + what);
 }
 
@@ -25,16 +25,16 @@ std::string text(const Value& value) {
 }
 
 Pose checked(const Pose& pose, const std::string& where) {
-  if (!pose.is_finite()) refuse(where + " has a coordinate that is not finite");
+  if (!pose.is_finite()) refuse_demonstration(where + " has a coordinate that is not finite");
   const double farthest = pose.position.cwiseAbs().maxCoeff();
   if (farthest > Demonstration::kMaxCoordinate) {
-    refuse(where + " has a coordinate of " + text(farthest) + " m, must be at most " +
-           text(Demonstration::kMaxCoordinate) + " m");
+    refuse_demonstration(where + " has a coordinate of " + text(farthest) + " m, must be at most " +
+                         text(Demonstration::kMaxCoordinate) + " m");
   }
   const double norm = pose.orientation.norm();
   if (!(std::abs(norm - 1.0) <= Demonstration::kQuaternionTolerance)) {
-    refuse(where + " has a quaternion of norm " + text(norm) + ", must be within " +
-           text(Demonstration::kQuaternionTolerance) + " of 1");
+    refuse_demonstration(where + " has a quaternion of norm " + text(norm) + ", must be within " +
+                         text(Demonstration::kQuaternionTolerance) + " of 1");
   }
   return {pose.position, pose.orientation.normalized()};
 }
@@ -103,26 +103,30 @@ Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
       frame_(std::move(frame)),
       child_frame_(std::move(child_frame)),
       target_(checked(target, "target_pose")) {
-  if (frame_.empty()) refuse("frame is empty, must name the frame of the poses");
-  if (child_frame_.empty()) refuse("child_frame is empty, must name the guided frame");
+  if (frame_.empty()) refuse_demonstration("frame is empty, must name the frame of the poses");
+  if (child_frame_.empty())
+    refuse_demonstration("child_frame is empty, must name the guided frame");
   if (samples_.size() < kMinSamples) {
-    refuse("has " + text(samples_.size()) + " samples, must have at least " + text(kMinSamples));
+    refuse_demonstration("has " + text(samples_.size()) + " samples, must have at least " +
+                         text(kMinSamples));
   }
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const std::string where = "sample " + text(i);
-    if (!std::isfinite(samples_[i].time)) refuse(where + " has a time that is not finite");
+    if (!std::isfinite(samples_[i].time))
+      refuse_demonstration(where + " has a time that is not finite");
     if (i == 0 && samples_[i].time != 0.0) {
-      refuse(where + " has time " + text(samples_[i].time) + " s, must be 0");
+      refuse_demonstration(where + " has time " + text(samples_[i].time) + " s, must be 0");
     }
     if (i > 0 && !(samples_[i].time > samples_[i - 1].time)) {
-      refuse(where + " has time " + text(samples_[i].time) + " s, must be above " +
-             text(samples_[i - 1].time) + " s of the sample before");
+      refuse_demonstration(where + " has time " + text(samples_[i].time) + " s, must be above " +
+                           text(samples_[i - 1].time) + " s of the sample before");
     }
     samples_[i].pose = checked(samples_[i].pose, where);
   }
   if (!(length() >= kMinLength)) {
-    refuse("has a path " + text(length()) + " m long (all points repeated), must be at least " +
-           text(kMinLength) + " m");
+    refuse_demonstration("has a path " + text(length()) +
+                         " m long (all points repeated), must be at least " + text(kMinLength) +
+                         " m");
   }
 }
 
@@ -143,7 +147,8 @@ double Demonstration::length() const { return arc_lengths(samples_).back(); }
 
 Demonstration Demonstration::resampled_by_arc_length(std::size_t nodes) const {
   if (nodes < kMinSamples) {
-    refuse("resampling to " + text(nodes) + " nodes, must be at least " + text(kMinSamples));
+    refuse_demonstration("resampling to " + text(nodes) + " nodes, must be at least " +
+                         text(kMinSamples));
   }
   const std::vector<double> arc = arc_lengths(samples_);
   std::vector<TimedPose> result;
@@ -184,15 +189,16 @@ Demonstration Demonstration::subdivided(IsEnough&& is_enough) const {
 
 Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) const {
   if (nodes < kMinSamples || nodes > samples_.size()) {
-    refuse("resampling to " + text(nodes) + " nodes, must be within [" + text(kMinSamples) + ", " +
-           text(samples_.size()) + "], the number of samples");
+    refuse_demonstration("resampling to " + text(nodes) + " nodes, must be within [" +
+                         text(kMinSamples) + ", " + text(samples_.size()) +
+                         "], the number of samples");
   }
   return subdivided([nodes](std::size_t count, double) { return count == nodes; });
 }
 
 Demonstration Demonstration::thinned_by_douglas_peucker(double tolerance) const {
   if (!(tolerance >= 0.0)) {
-    refuse("thinning tolerance is " + text(tolerance) + " m, must be at least 0 m");
+    refuse_demonstration("thinning tolerance is " + text(tolerance) + " m, must be at least 0 m");
   }
   return subdivided([tolerance](std::size_t count, double farthest) {
     return count >= kMinSamples && farthest <= tolerance;
