@@ -2,6 +2,7 @@
 """The box is pushed aside while the skill is executed: demonstration and adapted path, and the
 error at the end."""
 from prf_experiments import demonstration, report, statistics, trial
+from prf_experiments.compare import with_spread
 from prf_experiments.study import NO_BAG, Study, cell, letters, read_bag, test_link, values
 from prf_experiments.table import aligned, shown, tests
 
@@ -24,16 +25,10 @@ def summarise(results):
                       for found in [cell(results, framework=framework)]]}
 
 
-def number(found):
-    if found["mean"] is None:
-        return "–"
-    return f"{found['mean']:+.1f} ± {found['deviation'] or 0.0:.1f}"
-
-
 def text(summary):
     return aligned([("framework", "tests", *NUMBERS.values())]
                    + [(shown("framework", found["framework"]), tests(found["tests"]),
-                       *(number(found[name]) for name in NUMBERS)) for found in summary["cells"]])
+                       *(with_spread(found[name], "+.1f") for name in NUMBERS)) for found in summary["cells"]])
 
 
 def parts(_summary, results, folder):

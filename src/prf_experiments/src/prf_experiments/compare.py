@@ -52,6 +52,12 @@ def number(value, form=".1f"):
     return "–" if value is None else format(value, form)
 
 
+def with_spread(found, form=".1f"):
+    """Mean ± standard deviation, as far as they are defined."""
+    spread = "" if found["deviation"] is None else f" ± {found['deviation']:.1f}"
+    return number(found["mean"], form) + spread
+
+
 def probability(value):
     return "–" if value is None else "< 0.001" if value < 0.001 else f"{value:.3f}"
 
@@ -59,8 +65,7 @@ def probability(value):
 def text(summary):
     rows = [("motion", "planner", "tests", *(f"{name}, mm" for name in MEASURES.values()))]
     rows += [(found["motion"], found["planner"], tests(found["tests"]),
-              *(f"{number(found[name]['mean'])} ± {number(found[name]['deviation'])}"
-                for name in MEASURES)) for found in summary["cells"]]
+              *(with_spread(found[name]) for name in MEASURES)) for found in summary["cells"]]
     lines = [("motion", "difference", "of", "pairs", "mean ± sd, mm", "p (t)", "p (Wilcoxon)")]
     lines += [(found["motion"], f"{found['first']} − {found['second']}",
                MEASURES[found["measure"]], str(found["pairs"]),
@@ -77,7 +82,7 @@ def distance_figure(summary, name):
     """Bars of a measure with its spread over the seeds, told apart by lightness and hatching."""
     motions = list(dict.fromkeys(found["motion"] for found in summary["cells"]))
     planners = list(dict.fromkeys(found["planner"] for found in summary["cells"]))
-    figure = Figure(figsize=(4.6, 3.0), layout="constrained")
+    figure = Figure(figsize=(4.6, 3.3), layout="constrained")
     axes = figure.subplots()
     width = 0.8 / len(planners)
     for column, planner in enumerate(planners):
@@ -90,9 +95,9 @@ def distance_figure(summary, name):
     axes.set_xticks(range(len(motions)), motions)
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel("off the axis, mm", fontsize=9)
-    axes.set_title(MEASURES[name], fontsize=9)
     axes.tick_params(labelsize=8)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, ncols=4, loc="lower left", bbox_to_anchor=(0.0, 1.0),
+                title=MEASURES[name], title_fontsize=9, columnspacing=1.0)
     return figures.svg(figure, f"Distance from the optical axis: {MEASURES[name]}")
 
 
