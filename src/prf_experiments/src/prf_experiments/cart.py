@@ -28,7 +28,8 @@ def summarise(results):
 def text(summary):
     return aligned([("framework", "tests", *NUMBERS.values())]
                    + [(shown("framework", found["framework"]), tests(found["tests"]),
-                       *(with_spread(found[name], "+.1f") for name in NUMBERS)) for found in summary["cells"]])
+                       *(with_spread(found[name], "+.1f") for name in NUMBERS))
+                      for found in summary["cells"]])
 
 
 def parts(_summary, results, folder):
