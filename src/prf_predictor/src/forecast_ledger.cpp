@@ -9,7 +9,7 @@ namespace prf_predictor {
 namespace {
 
 constexpr double kLongestGap = 0.1;     // s between sights that a position is interpolated over
-constexpr double kFirstEvidence = 0.3;  // s that the promise itself counts for
+constexpr double kFirstEvidence = 0.3;  // s that the promise itself counts for at first
 constexpr double kTick = 1e-9;          // s
 
 }  // namespace
@@ -43,8 +43,8 @@ void ForecastLedger::observe(double time, const Eigen::Vector3d& position,
         sums.evidence += weight;
         sums.squared_error +=
             weight * (promise.candidates.colwise() - truth).colwise().squaredNorm().array();
-        sums.excess += weight * (promise.position - truth).array().square() /
-                       (promise.variance + variance).array();
+        sums.excess += weight * ((promise.position - truth).array().square() - variance.array()) /
+                       promise.variance.array();
       }
     }
   }
@@ -66,7 +66,8 @@ ForecastLedger::Score ForecastLedger::score(std::size_t horizon) const {
   Score score;
   score.evidence = sums.evidence;
   score.squared_error = sums.squared_error / std::max(sums.evidence, kTick);
-  score.excess = (kFirstEvidence + sums.excess) / (kFirstEvidence + sums.evidence);
+  const double prior = kFirstEvidence * std::exp(-sums.evidence);
+  score.excess = (prior + sums.excess) / (prior + sums.evidence);
   return score;
 }
 

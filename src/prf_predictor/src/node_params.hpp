@@ -62,6 +62,7 @@ inline NodeParams load(const ros::NodeHandle& private_node) {
   params.tracker.rotation = {parameters.number("angular_acceleration_density"),
                              parameters.number("angular_velocity_time_constant")};
   params.tracker.gate_probability = parameters.number("gate_probability");
+  params.tracker.gate_sigma = parameters.number("gate_sigma");
   params.tracker.reacquire_hits = parameters.integer("reacquire_hits");
   params.tracker.coast_after = parameters.number("coast_after");
   params.tracker.lost_after = parameters.number("lost_after");

@@ -2,6 +2,7 @@
 #include "prf_predictor/periodic_predictor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,16 +18,16 @@ constexpr int kFrequencies = 12;
 constexpr int kStepBands = 5;
 constexpr double kPlatformSwing = 0.06;  // m, standard deviation before anything is known
 constexpr double kStepSwing = 0.015;     // m, of the whole band
-constexpr double kPurity = 0.01;         // damping ratio of what is periodic
-constexpr double kStepPurity = 0.07;
-const VelocityDecay kDrift{1e-3, 0.3};
-const std::vector<Resonance> kWander{{1.5, 0.9, 0.03}, {17.0, 0.3, 0.003}, {26.0, 0.3, 0.002}};
-// Not periodic: the constant-velocity model, two whose velocity decays, and rest.
-const std::vector<VelocityDecay> kAperiodic{{0.3, kInfinity}, {0.3, 0.6}, {0.3, 0.3}, {1e-4, 0.6}};
+constexpr double kStepPurity = 0.07;     // damping ratio
+
+// Not periodic: the constant-velocity model, velocities that decay, and rest.
+const std::vector<VelocityDecay> kAperiodic{
+    {0.3, kInfinity}, {0.3, 0.6}, {0.3, 0.3}, {3e-3, 0.6}, {3e-4, 0.3}};
 // Errors of forecasts so far apart in time are taken as independent, s, at the ledger's horizons.
 constexpr std::array<double, ForecastLedger::kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0,
                                                                             1.5};
 constexpr double kInnovationMemory = 3.0;  // s
+constexpr double kLeastExcess = 1e-4;      // of a variance that proves to be too large
 
 // n values from first to last, neighbours at equal ratios.
 std::vector<double> geometric(double first, double last, int count) {
@@ -41,6 +42,14 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+// What goes on beside the periodic motion, and how pure that is.
+struct PeriodicPredictor::Surroundings {
+  VelocityDecay drift;
+  std::vector<Resonance> wander;
+  double purity = 0.0;  // damping ratio
+  bool steps = false;
+};
+
 void validate(const PeriodicParams& params) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   require(positive(params.slowest), "slowest", params.slowest, "finite and > 0 rad/s");
@@ -53,43 +62,57 @@ void validate(const PeriodicParams& params) {
   require(positive(params.memory), "memory", params.memory, "finite and > 0 s");
 }
 
+void PeriodicPredictor::Bank::add_periodic(const Surroundings& surroundings) {
+  // Parts: 0 the drift, then wander and steps, the platform's frequencies, and their doubles.
+  Parts all{surroundings.drift, surroundings.wander};
+  if (surroundings.steps) {
+    for (const double W : geometric(params.step_slowest, params.step_fastest, kStepBands)) {
+      all.resonances.push_back({W, kStepPurity, kStepSwing / std::sqrt(kStepBands)});
+    }
+  }
+  std::vector<int> common(all.resonances.size() + 1);
+  std::iota(common.begin(), common.end(), 0);
+  const auto add = [&](const std::vector<int>& more, std::vector<double> frequencies) {
+    std::vector<int> used = common;
+    used.insert(used.end(), more.begin(), more.end());
+    hypotheses.push_back({parts.size(), std::make_shared<std::vector<int>>(std::move(used)),
+                          std::move(frequencies), 0.0});
+  };
+
+  const auto frequencies = geometric(params.slowest, params.fastest, kFrequencies);
+  const int first = static_cast<int>(common.size());
+  for (const double multiple : {1.0, 2.0}) {
+    const double swing = multiple == 1 ? kPlatformSwing : kPlatformSwing / 6;
+    for (const double W : frequencies) {
+      all.resonances.push_back({multiple * W, surroundings.purity, swing});
+    }
+  }
+  for (int a = 0; a < kFrequencies; ++a) {
+    add({first + a, first + kFrequencies + a}, {frequencies[index(a)]});
+    for (int b = a + 1; b < kFrequencies; ++b) {
+      add({first + a, first + b}, {frequencies[index(a)], frequencies[index(b)]});
+    }
+  }
+  parts.push_back(std::move(all));
+}
+
 std::shared_ptr<const PeriodicPredictor::Bank> PeriodicPredictor::make_bank(
     const PeriodicParams& params) {
   validate(params);
   auto bank = std::make_shared<Bank>();
   bank->params = params;
-  // Parts: 0 the drift, then wander and steps, the platform's frequencies, and their doubles.
-  Parts parts{kDrift, kWander};
-  for (const double W : geometric(params.step_slowest, params.step_fastest, kStepBands)) {
-    parts.resonances.push_back({W, kStepPurity, kStepSwing / std::sqrt(kStepBands)});
-  }
-  const auto frequencies = geometric(params.slowest, params.fastest, kFrequencies);
-  std::vector<int> common(parts.resonances.size() + 1);
-  std::iota(common.begin(), common.end(), 0);
-  const int first = static_cast<int>(common.size());
-  for (const double W : frequencies) parts.resonances.push_back({W, kPurity, kPlatformSwing});
-  for (const double W : frequencies) {
-    parts.resonances.push_back({2 * W, kPurity, kPlatformSwing / 6});
-  }
-  bank->parts.push_back(parts);
-
-  const auto add = [&](int a, int b, std::vector<double> known) {
-    std::vector<int> used = common;
-    used.insert(used.end(), {first + a, first + b});
-    bank->hypotheses.push_back({0, used, std::move(known), 0.0});
-  };
-  for (int a = 0; a < kFrequencies; ++a) {
-    add(a, kFrequencies + a, {frequencies[index(a)]});
-    for (int b = a + 1; b < kFrequencies; ++b) {
-      add(a, b, {frequencies[index(a)], frequencies[index(b)]});
-    }
-  }
-  const double each = 1.0 / static_cast<double>(bank->hypotheses.size());
-  for (Hypothesis& hypothesis : bank->hypotheses) hypothesis.prior = 0.5 * each;
+  bank->add_periodic(
+      {{1e-3, 0.3}, {{1.5, 0.9, 0.03}, {17.0, 0.3, 0.003}, {26.0, 0.3, 0.002}}, 0.01, true});
+  bank->add_periodic({{1e-4, 0.3}, {{1.5, 0.9, 0.003}}, 0.002, false});
+  const std::size_t periodic = bank->hypotheses.size();
   for (const VelocityDecay& decay : kAperiodic) {
     bank->hypotheses.push_back(
-        {bank->parts.size(), {0}, {}, 0.5 / static_cast<double>(kAperiodic.size())});
+        {bank->parts.size(), std::make_shared<std::vector<int>>(1, 0), {}, 0.0});
     bank->parts.push_back({decay, {}});
+  }
+  for (std::size_t i = 0; i < bank->hypotheses.size(); ++i) {
+    const std::size_t alike = i < periodic ? periodic : kAperiodic.size();
+    bank->hypotheses[i].prior = 0.5 / static_cast<double>(alike);
   }
   return bank;
 }
@@ -107,6 +130,7 @@ void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matr
   ledger_ =
       ForecastLedger(static_cast<Eigen::Index>(bank_->hypotheses.size()), bank_->params.memory);
   time_ = 0.0;
+  since_ = 0.0;
   innovation_excess_.setOnes();
   const double variance = covariance.trace() / 3;
   for (const Hypothesis& hypothesis : bank_->hypotheses) {
@@ -129,15 +153,18 @@ void PeriodicPredictor::advance(double dt) {
     beliefs_[i].advance(passing[bank_->hypotheses[i].parts]);
   }
   time_ += dt;
+  since_ += dt;
 }
 
 void PeriodicPredictor::correct(const Eigen::Vector3d& position,
                                 const Eigen::Matrix3d& covariance) {
   const PointForecast expected = mixture(0);
   const Eigen::Array3d ratio =
-      (position - expected.position).array().square() /
-      (expected.covariance.diagonal().head<3>() + covariance.diagonal()).array();
-  innovation_excess_ += (ratio - innovation_excess_) / (30.0 * kInnovationMemory);
+      ((position - expected.position).array().square() - covariance.diagonal().array()) /
+      expected.covariance.diagonal().head<3>().array();
+  const double share = 1 - std::exp(-since_ / kInnovationMemory);
+  innovation_excess_ += share * (ratio - innovation_excess_);
+  since_ = 0.0;
 
   const double variance = covariance.trace() / 3;
   for (SpectralBelief& belief : beliefs_) belief.correct(position, variance);
@@ -181,12 +208,13 @@ void PeriodicPredictor::promise() {
     const PointForecast given = mixture(horizon);
     promises[k].position = given.position;
     promises[k].variance = given.covariance.diagonal().head<3>();
+    promised_[k] = promises[k].variance;
   }
   ledger_.promise(time_, std::move(promises));
 }
 
 Eigen::ArrayXd PeriodicPredictor::weights(double horizon) const {
-  const BetweenHorizons between = between_horizons(horizon);
+  const BetweenHorizons between = between_horizons(since_ + horizon);
   return (1 - between.fraction) * weights_[between.lower] +
          between.fraction * weights_[between.upper];
 }
@@ -198,7 +226,7 @@ PointForecast PeriodicPredictor::mixture(double horizon) const {
   Eigen::Matrix<double, 6, 6> second = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
   std::vector<std::pair<double, Eigen::Matrix<double, 6, 1>>> modes;
-  constexpr double kNegligible = 1e-6;
+  constexpr double kNegligible = 1e-3;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     const double w = weight(static_cast<Eigen::Index>(i));
     if (w < kNegligible) continue;
@@ -216,17 +244,27 @@ PointForecast PeriodicPredictor::mixture(double horizon) const {
   return {mean.head<3>(), mean.tail<3>(), (for_three_axes(within) + second) / total};
 }
 
-Eigen::Array3d PeriodicPredictor::excess(double horizon) const {
-  const BetweenHorizons between = between_horizons(horizon);
-  const Eigen::Array3d lower = ledger_.score(between.lower).excess;
-  const double first = ForecastLedger::kHorizons.front();
-  if (horizon < first) return innovation_excess_ + horizon / first * (lower - innovation_excess_);
-  return lower + between.fraction * (ledger_.score(between.upper).excess - lower);
+Eigen::Array3d PeriodicPredictor::proven_sigma(double horizon,
+                                               const Eigen::Array3d& variance) const {
+  const double age = since_ + horizon;
+  const auto& all = ForecastLedger::kHorizons;
+  const Eigen::Array3d now = innovation_excess_.max(kLeastExcess);
+  if (age < all.front()) {
+    const Eigen::Array3d soon = ledger_.score(0).excess.max(kLeastExcess);
+    return (variance * (now + age / all.front() * (soon - now))).sqrt();
+  }
+  const BetweenHorizons between = between_horizons(age);
+  const auto sigma = [&](std::size_t k) -> Eigen::Array3d {
+    const double beyond = age > all.back() ? age / all.back() : 1.0;
+    return beyond * (promised_[k] * ledger_.score(k).excess.max(kLeastExcess)).sqrt();
+  };
+  return sigma(between.lower) + between.fraction * (sigma(between.upper) - sigma(between.lower));
 }
 
 PointForecast PeriodicPredictor::forecast(double horizon) const {
   PointForecast forecast = mixture(horizon);
-  const Eigen::Vector3d scale = excess(horizon).sqrt();
+  const Eigen::Array3d variance = forecast.covariance.diagonal().head<3>();
+  const Eigen::Array3d scale = proven_sigma(horizon, variance) / variance.sqrt();
   Eigen::Matrix<double, 6, 1> both;
   both << scale, scale;
   forecast.covariance = repaired(both.asDiagonal() * forecast.covariance * both.asDiagonal());

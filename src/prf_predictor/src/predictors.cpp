@@ -7,6 +7,7 @@
 
 #include "prf_predictor/kalman_predictor.hpp"
 #include "prf_predictor/periodic_predictor.hpp"
+#include "prf_predictor/window_predictor.hpp"
 #include "require.hpp"
 
 namespace prf_predictor {
@@ -26,6 +27,11 @@ template <typename Model, typename Noise>
 std::unique_ptr<TargetPredictor> kalman(const Noise& noise,
                                         const std::optional<SigmaPointParams>& sigma_points) {
   return std::make_unique<KalmanPredictor>(std::make_shared<Model>(noise), sigma_points);
+}
+
+template <typename Fit>
+std::unique_ptr<TargetPredictor> window(const Fit& fit) {
+  return std::make_unique<WindowPredictor>(std::make_shared<Fit>(fit));
 }
 
 OscillationNoise oscillation_noise(const Values& values) {
@@ -82,6 +88,15 @@ const std::vector<Entry>& entries() {
        [](const Values& values) {
          return kalman<Oscillation>(oscillation_noise(values), std::nullopt);
        }},
+      {"autoregressive",
+       {"window", "order"},
+       [](const Values& values) {
+         return window(Autoregressive(values.at("window"), values.at("order")));
+       }},
+      {"sines",
+       {"window", "count"},
+       [](const Values& values) { return window(Sines(values.at("window"), values.at("count"))); }},
+      {"hold", {}, [](const Values& /*values*/) { return window(Hold()); }},
   };
   return kEntries;
 }

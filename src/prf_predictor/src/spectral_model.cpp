@@ -34,15 +34,15 @@ std::vector<Transition> Parts::transitions(double dt) const {
   return result;
 }
 
-SpectralBelief::SpectralBelief(const Parts& parts, std::vector<int> used,
+SpectralBelief::SpectralBelief(const Parts& parts, std::shared_ptr<const std::vector<int>> used,
                                const Eigen::Vector3d& position, double variance)
     : used_(std::move(used)) {
-  const auto size = 2 * static_cast<Eigen::Index>(used_.size());
+  const auto size = 2 * static_cast<Eigen::Index>(used_->size());
   x_.setZero(size, 3);
   P_.setZero(size, size);
   Eigen::Index row = 0;
   double unknown = variance;
-  for (const int part : used_) {
+  for (const int part : *used_) {
     if (part == 0) {
       x_.row(row) = position;
       P_(row + 1, row + 1) = parts.drift.prior_variance();
@@ -55,15 +55,15 @@ SpectralBelief::SpectralBelief(const Parts& parts, std::vector<int> used,
     row += 2;
   }
   for (Eigen::Index i = 0; i < size; i += 2) {
-    if (used_[static_cast<std::size_t>(i / 2)] == 0) P_(i, i) = unknown;
+    if ((*used_)[static_cast<std::size_t>(i / 2)] == 0) P_(i, i) = unknown;
   }
   correct(position, variance);
 }
 
 void SpectralBelief::advance(const std::vector<Transition>& transitions) {
-  const auto count = static_cast<Eigen::Index>(used_.size());
+  const auto count = static_cast<Eigen::Index>(used_->size());
   const auto of = [&](Eigen::Index i) -> const Transition& {
-    return transitions[static_cast<std::size_t>(used_[static_cast<std::size_t>(i)])];
+    return transitions[static_cast<std::size_t>((*used_)[static_cast<std::size_t>(i)])];
   };
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Matrix2d& F = of(i).F;
@@ -96,8 +96,8 @@ SpectralBelief::Forecast SpectralBelief::forecast(
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMost> G;  // position and velocity of the state
   G.setZero(2, P_.rows());
   Eigen::Matrix2d Q = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < used_.size(); ++i) {
-    const Transition& part = transitions[static_cast<std::size_t>(used_[i])];
+  for (std::size_t i = 0; i < used_->size(); ++i) {
+    const Transition& part = transitions[static_cast<std::size_t>((*used_)[i])];
     G.middleCols<2>(2 * static_cast<Eigen::Index>(i)) = part.F;
     Q += part.Q;
   }
@@ -108,7 +108,7 @@ SpectralBelief::Forecast SpectralBelief::forecast(
 Eigen::Vector3d SpectralBelief::position(const std::vector<Transition>& transitions) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Index row = 0;
-  for (const int part : used_) {
+  for (const int part : *used_) {
     sum += x_.middleRows<2>(row).transpose() *
            transitions[static_cast<std::size_t>(part)].F.row(0).transpose();
     row += 2;

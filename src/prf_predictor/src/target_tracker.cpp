@@ -21,19 +21,25 @@ bool is_finite(const Belief& belief) {
 
 struct Nearest {
   const TagMeasurement* sight = nullptr;
-  double nis = std::numeric_limits<double>::infinity();
+  double nis = 0.0;
+  double distance = std::numeric_limits<double>::infinity();  // the same, by the widened covariance
 };
 
+double squared_distance(const Eigen::Vector3d& residual, const Eigen::Matrix3d& covariance) {
+  return residual.dot(repaired(covariance).llt().solve(residual));
+}
+
 // By the Mahalanobis distance to where the target is expected now.
-Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasurement>& sights) {
+Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasurement>& sights,
+                   double gate_sigma) {
   const PointForecast expected = target.forecast(0);
   Nearest nearest;
   for (const TagMeasurement& sight : sights) {
     const Eigen::Vector3d residual = sight.position - expected.position;
-    const Eigen::Matrix3d S =
-        repaired(expected.covariance.topLeftCorner<3, 3>() + sight.position_covariance);
-    const double nis = residual.dot(S.llt().solve(residual));
-    if (nis < nearest.nis) nearest = {&sight, nis};
+    const Eigen::Matrix3d S = expected.covariance.topLeftCorner<3, 3>() + sight.position_covariance;
+    const Eigen::Matrix3d widened = S + std::pow(gate_sigma, 2) * Eigen::Matrix3d::Identity();
+    const double distance = squared_distance(residual, widened);
+    if (distance < nearest.distance) nearest = {&sight, squared_distance(residual, S), distance};
   }
   return nearest;
 }
@@ -51,6 +57,8 @@ void validate(const TrackerParams& params) {
   validate(params.rotation, "angular_acceleration_density", "angular_velocity_time_constant");
   require(params.gate_probability > 0.5 && params.gate_probability < 1, "gate_probability",
           params.gate_probability, "> 0.5 and < 1");
+  require(params.gate_sigma >= 0 && std::isfinite(params.gate_sigma), "gate_sigma",
+          params.gate_sigma, "finite and >= 0 m");
   require(params.reacquire_hits >= 2, "reacquire_hits", params.reacquire_hits, ">= 2");
   require(params.coast_after > 0 && std::isfinite(params.coast_after), "coast_after",
           params.coast_after, "finite and > 0 s");
@@ -146,10 +154,10 @@ Belief TargetTracker::advanced(const Belief& belief, double dt) const {
 }
 
 bool TargetTracker::accept(TrackState& state, const std::vector<TagMeasurement>& sights) const {
-  const Nearest nearest = nearest_to(*state.belief->motion, sights);
+  const Nearest nearest = nearest_to(*state.belief->motion, sights, params_.gate_sigma);
   if (nearest.sight == nullptr) return false;
   state.nis = nearest.nis;
-  if (!(state.nis <= gate_)) return false;
+  if (!(nearest.distance <= gate_)) return false;
   state.belief->motion = corrected(*state.belief->motion, *nearest.sight);
   state.orientation_gated = !correct_orientation(*state.belief, *nearest.sight);
   state.last_accepted = state.stamp;
@@ -163,8 +171,8 @@ void TargetTracker::pursue_candidate(TrackState& state,
   if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
   if (candidate) {
     candidate->belief = advanced(candidate->belief, seconds(state.stamp - candidate->stamp));
-    const Nearest nearest = nearest_to(*candidate->belief.motion, sights);
-    if (nearest.sight != nullptr && nearest.nis <= gate_) {
+    const Nearest nearest = nearest_to(*candidate->belief.motion, sights, params_.gate_sigma);
+    if (nearest.sight != nullptr && nearest.distance <= gate_) {
       candidate->belief.motion = corrected(*candidate->belief.motion, *nearest.sight);
       (void)correct_orientation(candidate->belief, *nearest.sight);
       candidate->stamp = state.stamp;

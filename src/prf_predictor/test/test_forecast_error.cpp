@@ -42,7 +42,7 @@ struct ForecastError {
 };
 
 ForecastError measure(const VelocityDecay& motion, const std::vector<Sway>& sways) {
-  TrackerParams params{{0.03, 0.6}, 0.9999, 5, 0.15, 2.0};
+  TrackerParams params{{0.03, 0.6}, 0.9999, 0.005, 5, 0.15, 2.0};
   ForecastError error{std::vector<double>(kHorizons.size()), std::vector<double>(kHorizons.size()),
                       0};
   int count = 0;

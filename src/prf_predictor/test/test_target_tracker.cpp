@@ -25,6 +25,7 @@ TrackerParams good_params() {
   TrackerParams params;
   params.rotation = {0.03, 0.6};
   params.gate_probability = 0.9999;
+  params.gate_sigma = 0.005;
   params.reacquire_hits = 5;
   params.coast_after = 0.15;
   params.lost_after = 1.0;
@@ -154,6 +155,17 @@ TEST(TargetTracker, GatesAGhostAndKeepsTheTarget) {
   }
 }
 
+TEST(TargetTracker, FollowsAJerkOfSomeMillimetresButNotOfCentimetres) {
+  for (const double jerk : {0.008, 0.015, 0.05, 0.2}) {
+    auto tracker = make_tracker({1e-4, 0.6});
+    rest(tracker, 60);
+    const auto state =
+        tracker.process(60 * kFrame, {sight_at(kHome + Eigen::Vector3d(0, jerk, 0))}).state;
+    EXPECT_EQ(state.measured, jerk < 0.02) << jerk;
+    EXPECT_GT(state.nis, chi_square_quantile_3(0.9999)) << "NIS is not widened";
+  }
+}
+
 TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -279,6 +291,7 @@ TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
       {"angular_acceleration_density", [](TrackerParams& p) { p.rotation.spectral_density = 0; }},
       {"angular_velocity_time_constant", [](TrackerParams& p) { p.rotation.time_constant = NAN; }},
       {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
+      {"gate_sigma", [](TrackerParams& p) { p.gate_sigma = -1; }},
       {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},
       {"coast_after", [](TrackerParams& p) { p.coast_after = NAN; }},
       {"lost_after", [](TrackerParams& p) { p.lost_after = 0.1; }},

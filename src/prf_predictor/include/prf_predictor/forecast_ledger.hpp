@@ -29,7 +29,9 @@ class ForecastLedger {
   struct Score {
     double evidence = 0.0;         // s of forecasts that came due, faded
     Eigen::ArrayXd squared_error;  // m^2, mean of each candidate
-    // Mean of squared error over promised variance, of each axis; 1 counts for the first moment.
+    // Of each axis, the mean of (squared error - variance of the sight) / promised variance; below
+    // 0 at worst when the errors are smaller than the sights can tell. 1 counts for the first
+    // moment.
     Eigen::Array3d excess = Eigen::Array3d::Ones();
   };
 

@@ -5,8 +5,9 @@
 // A bank of linear Kalman filters, one for each hypothesis about the frequencies: one frequency and
 // its double, or two frequencies, from a geometric grid over [slowest, fastest]; amplitudes and
 // phases of each axis are states. All of them also carry a slow drift, a wander and the band of
-// the robot's steps. Beside them stand the hypotheses that nothing is periodic: velocities that
-// decay soon, later and never, and a target at rest.
+// the robot's steps, or, in a second set of hypotheses, little of that. Beside them stand the
+// hypotheses that nothing is periodic: velocities that decay soon, later and never, and a target at
+// rest.
 //
 // What is trusted is decided apart for every horizon, by how well each hypothesis i has foretold
 // that horizon lately. With the mean squared error e_i over the last `memory` seconds, that
@@ -58,21 +59,25 @@ class PeriodicPredictor : public TargetPredictor {
  private:
   struct Hypothesis {
     std::size_t parts = 0;  // which of Bank::parts
-    std::vector<int> used;
+    std::shared_ptr<const std::vector<int>> used;
     std::vector<double> frequencies;  // none: not periodic
     double prior = 0.0;
   };
+  struct Surroundings;
   struct Bank {
     PeriodicParams params;
-    std::vector<Parts> parts;  // the first are those of the periodic hypotheses
+    std::vector<Parts> parts;
     std::vector<Hypothesis> hypotheses;
+
+    void add_periodic(const Surroundings& surroundings);
   };
   using Transitions = std::vector<std::vector<Transition>>;
 
   [[nodiscard]] static std::shared_ptr<const Bank> make_bank(const PeriodicParams& params);
   [[nodiscard]] Transitions transitions(double dt) const;
   [[nodiscard]] Eigen::ArrayXd weights(double horizon) const;
-  [[nodiscard]] Eigen::Array3d excess(double horizon) const;
+  // Of the forecast, given the variance that the filters promise, by how promises proved.
+  [[nodiscard]] Eigen::Array3d proven_sigma(double horizon, const Eigen::Array3d& variance) const;
   [[nodiscard]] PointForecast mixture(double horizon) const;  // covariance as the filters have it
   void settle_weights(double noise_variance);
   void promise();
@@ -81,8 +86,10 @@ class PeriodicPredictor : public TargetPredictor {
   std::vector<SpectralBelief> beliefs_;  // of each hypothesis
   ForecastLedger ledger_;
   std::vector<Eigen::ArrayXd> weights_;  // at each of the ledger's horizons
-  double time_ = 0.0;                    // s since begin()
-  // Squared innovation over its promised variance, faded; the moment now is horizon 0.
+  std::array<Eigen::Array3d, ForecastLedger::kHorizons.size()> promised_;  // variance, the same
+  double time_ = 0.0;                                                      // s since begin()
+  double since_ = 0.0;                                                     // s since the last sight
+  // Variance of innovations less the measurement's over what was promised, faded.
   Eigen::Array3d innovation_excess_ = Eigen::Array3d::Ones();
 };
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "prf_predictor/motion_model.hpp"
@@ -45,7 +46,7 @@ struct Parts {
 // The belief of one model, which consists of some of the parts, by their numbers.
 class SpectralBelief {
  public:
-  static constexpr int kMostParts = 14;
+  static constexpr int kMostParts = 12;
 
   struct Forecast {
     Eigen::Vector3d position;
@@ -53,8 +54,8 @@ class SpectralBelief {
     Eigen::Matrix2d covariance;  // of position and velocity, for each axis
   };
 
-  SpectralBelief(const Parts& parts, std::vector<int> used, const Eigen::Vector3d& position,
-                 double variance);
+  SpectralBelief(const Parts& parts, std::shared_ptr<const std::vector<int>> used,
+                 const Eigen::Vector3d& position, double variance);
 
   void advance(const std::vector<Transition>& transitions);
   void correct(const Eigen::Vector3d& position, double variance);
@@ -68,7 +69,7 @@ class SpectralBelief {
   using State = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMost, 3>;
   using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
 
-  std::vector<int> used_;
+  std::shared_ptr<const std::vector<int>> used_;
   State x_;
   Covariance P_;
 };

@@ -3,11 +3,12 @@
 // any TargetPredictor, which has the position; the orientation has a filter of its own.
 //
 // For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
-// if its Mahalanobis distance passes the gate, correct (the orientation has a gate of its own: a
-// flipped one is dropped, the position kept). A sight outside the gate starts a candidate, which
-// replaces the target once `reacquire_hits` sights in a row were consistent with it while none
-// passed the gate. Without accepted sights the target coasts with growing covariance; beyond
-// `lost_after` it is lost, its belief stands still and only a candidate brings it back.
+// if its Mahalanobis distance, by the covariance widened by gate_sigma, passes the gate, correct
+// (the orientation has a gate of its own: a flipped one is dropped, the position kept). A sight
+// outside the gate starts a candidate, which replaces the target once `reacquire_hits` sights in a
+// row were consistent with it while none passed the gate. Without accepted sights the target coasts
+// with growing covariance; beyond `lost_after` it is lost, its belief stands still and only a
+// candidate brings it back.
 //
 // Images may come twice or late: the states of the last second are kept, a late image is put in
 // its place and what follows is computed again. The result depends on stamps alone.
@@ -30,6 +31,7 @@ using Nanoseconds = std::int64_t;
 struct TrackerParams {
   VelocityDecay rotation;         // of the angular velocity
   double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
+  double gate_sigma = 0.0;        // m, >= 0, of jerks that no filter foresees; widens the gate
   int reacquire_hits = 0;         // >= 2
   double coast_after = 0.0;       // s without accepted sight, > 0
   double lost_after = 0.0;        // the same, > coast_after
