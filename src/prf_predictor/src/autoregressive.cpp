@@ -84,7 +84,7 @@ Autoregressive::Autoregressive(double window, double order)
 
 std::shared_ptr<const Continuation> Autoregressive::fit(const std::deque<Sample>& samples) const {
   const Eigen::MatrixX3d grid = on_grid(samples);
-  if (grid.rows() < 3 * order_) return Hold().fit(samples);
+  if (grid.rows() < 2 * order_) return Hold().fit(samples);
   const auto steps = static_cast<Eigen::Index>(kLongest / kPeriod);
   Eigen::Matrix3Xd path(3, steps + 1);
   path.col(0) = samples.back().position;

@@ -67,7 +67,8 @@ ForecastLedger::Score ForecastLedger::score(std::size_t horizon) const {
   score.evidence = sums.evidence;
   score.squared_error = sums.squared_error / std::max(sums.evidence, kTick);
   const double prior = kFirstEvidence * std::exp(-sums.evidence);
-  score.excess = (prior + sums.excess) / (prior + sums.evidence);
+  const double errors = sums.evidence / kIndependent[horizon];
+  score.excess = (errors + 3) / (errors + 1) * (prior + sums.excess) / (prior + sums.evidence);
   return score;
 }
 

@@ -23,10 +23,11 @@ constexpr double kStepPurity = 0.07;     // damping ratio
 // Not periodic: the constant-velocity model, velocities that decay, and rest.
 const std::vector<VelocityDecay> kAperiodic{
     {0.3, kInfinity}, {0.3, 0.6}, {0.3, 0.3}, {3e-3, 0.6}, {3e-4, 0.3}};
-// Errors of forecasts so far apart in time are taken as independent, s, at the ledger's horizons.
-constexpr std::array<double, ForecastLedger::kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0,
-                                                                            1.5};
+constexpr double kPeriodicPrior = 0.4;
+constexpr double kAperiodicPrior = 0.3;
+constexpr double kAutoregressivePrior = 0.3;
 constexpr double kInnovationMemory = 3.0;  // s
+constexpr double kLeastOfNoise = 0.4;      // no forecast is surer than this part of the sights
 constexpr double kLeastExcess = 1e-4;      // of a variance that proves to be too large
 
 // n values from first to last, neighbours at equal ratios.
@@ -111,15 +112,17 @@ std::shared_ptr<const PeriodicPredictor::Bank> PeriodicPredictor::make_bank(
     bank->parts.push_back({decay, {}});
   }
   for (std::size_t i = 0; i < bank->hypotheses.size(); ++i) {
-    const std::size_t alike = i < periodic ? periodic : kAperiodic.size();
-    bank->hypotheses[i].prior = 0.5 / static_cast<double>(alike);
+    const bool is_periodic = i < periodic;
+    bank->hypotheses[i].prior = is_periodic
+                                    ? kPeriodicPrior / static_cast<double>(periodic)
+                                    : kAperiodicPrior / static_cast<double>(kAperiodic.size());
   }
   return bank;
 }
 
 PeriodicPredictor::PeriodicPredictor(const PeriodicParams& params)
     : bank_(make_bank(params)),
-      ledger_(static_cast<Eigen::Index>(bank_->hypotheses.size()), params.memory) {}
+      ledger_(static_cast<Eigen::Index>(bank_->hypotheses.size()) + 1, params.memory) {}
 
 std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
   return std::make_unique<PeriodicPredictor>(*this);
@@ -127,8 +130,9 @@ std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
 
 void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
   beliefs_.clear();
+  samples_.clear();
   ledger_ =
-      ForecastLedger(static_cast<Eigen::Index>(bank_->hypotheses.size()), bank_->params.memory);
+      ForecastLedger(static_cast<Eigen::Index>(bank_->hypotheses.size()) + 1, bank_->params.memory);
   time_ = 0.0;
   since_ = 0.0;
   innovation_excess_.setOnes();
@@ -136,8 +140,17 @@ void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matr
   for (const Hypothesis& hypothesis : bank_->hypotheses) {
     beliefs_.emplace_back(bank_->parts[hypothesis.parts], hypothesis.used, position, variance);
   }
-  settle_weights(variance);
+  look(position, covariance);
+}
+
+// What is remembered of a sight beside the filters.
+void PeriodicPredictor::look(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
+  noise_ = covariance.diagonal();
+  samples_.push_back({time_, position});
+  while (samples_.front().time < time_ - bank_->autoregressive.window()) samples_.pop_front();
+  autoregression_ = bank_->autoregressive.fit(samples_);
   ledger_.observe(time_, position, covariance.diagonal());
+  settle_weights(covariance.trace());
   promise();
 }
 
@@ -168,9 +181,7 @@ void PeriodicPredictor::correct(const Eigen::Vector3d& position,
 
   const double variance = covariance.trace() / 3;
   for (SpectralBelief& belief : beliefs_) belief.correct(position, variance);
-  ledger_.observe(time_, position, covariance.diagonal());
-  settle_weights(covariance.trace());
-  promise();
+  look(position, covariance);
 }
 
 void PeriodicPredictor::settle_weights(double noise_variance) {
@@ -179,13 +190,14 @@ void PeriodicPredictor::settle_weights(double noise_variance) {
   for (std::size_t k = 0; k < weights_.size(); ++k) {
     const ForecastLedger::Score score = ledger_.score(k);
     Eigen::ArrayXd& weight = weights_[k];
-    weight.resize(static_cast<Eigen::Index>(hypotheses.size()));
-    for (Eigen::Index i = 0; i < weight.size(); ++i) {
-      weight(i) = std::log(hypotheses[static_cast<std::size_t>(i)].prior);
+    weight.setConstant(static_cast<Eigen::Index>(hypotheses.size()) + 1,
+                       std::log(kAutoregressivePrior));
+    for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+      weight(static_cast<Eigen::Index>(i)) = std::log(hypotheses[i].prior);
     }
     if (score.evidence > 0) {
-      weight -=
-          1.5 * score.evidence / kIndependent[k] * (score.squared_error + noise_variance).log();
+      weight -= 1.5 * score.evidence / ForecastLedger::kIndependent[k] *
+                (score.squared_error + noise_variance).log();
     } else if (k > 0) {
       weight = weights_[k - 1].log();
     }
@@ -200,7 +212,8 @@ void PeriodicPredictor::promise() {
     const double horizon = ForecastLedger::kHorizons[k];
     const Transitions passing = transitions(horizon);
     auto& candidates = promises[k].candidates;
-    candidates.resize(3, static_cast<Eigen::Index>(beliefs_.size()));
+    candidates.resize(3, static_cast<Eigen::Index>(beliefs_.size()) + 1);
+    candidates.rightCols<1>() = autoregression_->position(time_ + horizon);
     for (std::size_t i = 0; i < beliefs_.size(); ++i) {
       candidates.col(static_cast<Eigen::Index>(i)) =
           beliefs_[i].position(passing[bank_->hypotheses[i].parts]);
@@ -219,29 +232,55 @@ Eigen::ArrayXd PeriodicPredictor::weights(double horizon) const {
          between.fraction * weights_[between.upper];
 }
 
+// As sure as it has proved to be.
+SpectralBelief::Forecast PeriodicPredictor::autoregression(double horizon) const {
+  constexpr double kStep = 0.01;           // s, for the velocity
+  constexpr double kLeastVariance = 1e-8;  // m^2
+  constexpr double kShortest = 0.1;        // s over which a velocity is as uncertain as a position
+  const double then = time_ + horizon;
+  const double age = since_ + horizon;
+  SpectralBelief::Forecast forecast;
+  forecast.position = autoregression_->position(then);
+  forecast.velocity = (autoregression_->position(then + kStep) - forecast.position) / kStep;
+  const BetweenHorizons between = between_horizons(age);
+  const auto variance = [&](std::size_t k) {
+    const ForecastLedger::Score score = ledger_.score(k);
+    return score.squared_error(score.squared_error.size() - 1) / 3;
+  };
+  const double first = ForecastLedger::kHorizons.front();
+  const double position = kLeastVariance + std::min(age / first, 1.0) *
+                                               ((1 - between.fraction) * variance(between.lower) +
+                                                between.fraction * variance(between.upper));
+  forecast.covariance =
+      Eigen::Vector2d(position, position / std::pow(std::max(age, kShortest), 2)).asDiagonal();
+  return forecast;
+}
+
 PointForecast PeriodicPredictor::mixture(double horizon) const {
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  constexpr double kNegligible = 1e-3;
   const Transitions passing = transitions(horizon);
   const Eigen::ArrayXd weight = weights(horizon);
-  Eigen::Matrix<double, 6, 1> mean = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 6> second = Eigen::Matrix<double, 6, 6>::Zero();
+  double total = 0.0;
+  Vector6d mean = Vector6d::Zero();
   Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
-  std::vector<std::pair<double, Eigen::Matrix<double, 6, 1>>> modes;
-  constexpr double kNegligible = 1e-3;
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+  std::vector<std::pair<double, Vector6d>> modes;
+  for (std::size_t i = 0; i <= beliefs_.size(); ++i) {
     const double w = weight(static_cast<Eigen::Index>(i));
     if (w < kNegligible) continue;
-    const auto one = beliefs_[i].forecast(passing[bank_->hypotheses[i].parts]);
-    Eigen::Matrix<double, 6, 1> mode;
+    const auto one = i < beliefs_.size() ? beliefs_[i].forecast(passing[bank_->hypotheses[i].parts])
+                                         : autoregression(horizon);
+    Vector6d mode;
     mode << one.position, one.velocity;
     modes.emplace_back(w, mode);
+    total += w;
     mean += w * mode;
     within += w * one.covariance;
   }
-  double total = 0.0;
-  for (const auto& mode : modes) total += mode.first;
   mean /= total;
-  for (const auto& [w, mode] : modes) second += w * (mode - mean) * (mode - mean).transpose();
-  return {mean.head<3>(), mean.tail<3>(), (for_three_axes(within) + second) / total};
+  Eigen::Matrix<double, 6, 6> covariance = for_three_axes(within);
+  for (const auto& [w, mode] : modes) covariance += w * (mode - mean) * (mode - mean).transpose();
+  return {mean.head<3>(), mean.tail<3>(), covariance / total};
 }
 
 Eigen::Array3d PeriodicPredictor::proven_sigma(double horizon,
@@ -264,7 +303,9 @@ Eigen::Array3d PeriodicPredictor::proven_sigma(double horizon,
 PointForecast PeriodicPredictor::forecast(double horizon) const {
   PointForecast forecast = mixture(horizon);
   const Eigen::Array3d variance = forecast.covariance.diagonal().head<3>();
-  const Eigen::Array3d scale = proven_sigma(horizon, variance) / variance.sqrt();
+  const Eigen::Array3d sigma =
+      proven_sigma(horizon, variance).max(kLeastOfNoise * noise_.array().sqrt());
+  const Eigen::Array3d scale = sigma / variance.sqrt();
   Eigen::Matrix<double, 6, 1> both;
   both << scale, scale;
   forecast.covariance = repaired(both.asDiagonal() * forecast.covariance * both.asDiagonal());

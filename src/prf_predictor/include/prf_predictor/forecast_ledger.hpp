@@ -16,6 +16,8 @@ namespace prf_predictor {
 class ForecastLedger {
  public:
   static constexpr std::array<double, 5> kHorizons{0.1, 0.25, 0.5, 1.0, 2.0};  // s
+  // Errors of forecasts so far apart in time are taken as independent, s.
+  static constexpr std::array<double, kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0, 1.5};
 
   // For one horizon: where each candidate and where the forecast given out say the target will be,
   // and the variance that the latter promises, of each axis.
@@ -31,7 +33,8 @@ class ForecastLedger {
     Eigen::ArrayXd squared_error;  // m^2, mean of each candidate
     // Of each axis, the mean of (squared error - variance of the sight) / promised variance; below
     // 0 at worst when the errors are smaller than the sights can tell. 1 counts for the first
-    // moment.
+    // moment. Enlarged by (n + 3) / (n + 1) for n independent errors, as a variance known from few
+    // must be.
     Eigen::Array3d excess = Eigen::Array3d::Ones();
   };
 

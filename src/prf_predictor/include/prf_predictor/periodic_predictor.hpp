@@ -7,7 +7,7 @@
 // phases of each axis are states. All of them also carry a slow drift, a wander and the band of
 // the robot's steps, or, in a second set of hypotheses, little of that. Beside them stand the
 // hypotheses that nothing is periodic: velocities that decay soon, later and never, and a target at
-// rest.
+// rest; and an autoregressive model of the latest positions, for what repeats otherwise.
 //
 // What is trusted is decided apart for every horizon, by how well each hypothesis i has foretold
 // that horizon lately. With the mean squared error e_i over the last `memory` seconds, that
@@ -24,6 +24,7 @@
 #include "prf_predictor/forecast_ledger.hpp"
 #include "prf_predictor/spectral_model.hpp"
 #include "prf_predictor/target_predictor.hpp"
+#include "prf_predictor/window_predictor.hpp"
 
 namespace prf_predictor {
 
@@ -66,6 +67,7 @@ class PeriodicPredictor : public TargetPredictor {
   struct Surroundings;
   struct Bank {
     PeriodicParams params;
+    Autoregressive autoregressive{10.0, 24};
     std::vector<Parts> parts;
     std::vector<Hypothesis> hypotheses;
 
@@ -79,16 +81,22 @@ class PeriodicPredictor : public TargetPredictor {
   // Of the forecast, given the variance that the filters promise, by how promises proved.
   [[nodiscard]] Eigen::Array3d proven_sigma(double horizon, const Eigen::Array3d& variance) const;
   [[nodiscard]] PointForecast mixture(double horizon) const;  // covariance as the filters have it
+  [[nodiscard]] SpectralBelief::Forecast autoregression(double horizon) const;
+  void look(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance);
   void settle_weights(double noise_variance);
   void promise();
 
   std::shared_ptr<const Bank> bank_;
   std::vector<SpectralBelief> beliefs_;  // of each hypothesis
+  std::deque<Sample> samples_;
+  std::shared_ptr<const Continuation> autoregression_;
+  // Candidates: the hypotheses, then the autoregressive model.
   ForecastLedger ledger_;
   std::vector<Eigen::ArrayXd> weights_;  // at each of the ledger's horizons
   std::array<Eigen::Array3d, ForecastLedger::kHorizons.size()> promised_;  // variance, the same
-  double time_ = 0.0;                                                      // s since begin()
-  double since_ = 0.0;                                                     // s since the last sight
+  Eigen::Vector3d noise_ = Eigen::Vector3d::Zero();  // variance of the latest sight
+  double time_ = 0.0;                                // s since begin()
+  double since_ = 0.0;                               // s since the last sight
   // Variance of innovations less the measurement's over what was promised, faded.
   Eigen::Array3d innovation_excess_ = Eigen::Array3d::Ones();
 };
