@@ -21,6 +21,7 @@ struct NodeParams {
   int tag_id = 0;
   std::vector<double> horizons;
   double tf_wait = 0.0;
+  double measurement_scale = 0.0;
   std::shared_ptr<const TargetPredictor> predictor;
   MeasurementDefaults defaults;
   TrackerParams tracker;
@@ -37,6 +38,8 @@ inline void validate(const NodeParams& params) {
             params.horizons[i], "strictly rising and <= 60 s");
   }
   require(params.tf_wait >= 0 && params.tf_wait <= 10, "tf_wait", params.tf_wait, "0 .. 10 s");
+  require(params.measurement_scale > 0 && params.measurement_scale <= 1e6, "measurement_scale",
+          params.measurement_scale, "> 0 and <= 1e6");
   validate(params.defaults);
   validate(params.tracker);
 }
@@ -58,6 +61,7 @@ inline NodeParams load(const ros::NodeHandle& private_node) {
   params.horizons = parameters.numbers("horizons");
   params.tf_wait = parameters.number("tf_wait");
   params.predictor = load_predictor(parameters);
+  params.measurement_scale = parameters.number("measurement_scale");
   params.defaults = {parameters.number("position_sigma"), parameters.number("orientation_sigma")};
   params.tracker.rotation = {parameters.number("angular_acceleration_density"),
                              parameters.number("angular_velocity_time_constant")};

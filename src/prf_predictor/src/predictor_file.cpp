@@ -15,6 +15,8 @@ PredictorFile read_predictor_file(const std::string& path) {
       const auto key = entry.first.as<std::string>();
       if (key == "predictor") {
         file.predictor = entry.second.as<std::string>();
+      } else if (key == "measurement_scale") {
+        file.measurement_scale = entry.second.as<double>();
       } else {
         file.values[key] = entry.second.as<double>();
       }
@@ -23,6 +25,14 @@ PredictorFile read_predictor_file(const std::string& path) {
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + " is no predictor's file: " + error.what());
   }
+}
+
+std::string text_of(const PredictorFile& file) {
+  YAML::Emitter text;
+  text << YAML::BeginMap << YAML::Key << "predictor" << YAML::Value << file.predictor;
+  for (const auto& [key, value] : file.values) text << YAML::Key << key << YAML::Value << value;
+  text << YAML::Key << "measurement_scale" << YAML::Value << file.measurement_scale << YAML::EndMap;
+  return std::string(text.c_str()) + "\n";
 }
 
 }  // namespace prf_predictor

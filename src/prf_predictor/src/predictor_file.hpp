@@ -11,9 +11,12 @@ namespace prf_predictor {
 struct PredictorFile {
   std::string predictor;
   std::map<std::string, double> values;
+  double measurement_scale = 1.0;  // of the measurements' covariance
 };
 
 // Throws std::invalid_argument when it cannot be read or is none.
 [[nodiscard]] PredictorFile read_predictor_file(const std::string& path);
+
+[[nodiscard]] std::string text_of(const PredictorFile& file);
 
 }  // namespace prf_predictor

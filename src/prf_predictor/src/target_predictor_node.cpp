@@ -113,7 +113,9 @@ class TargetPredictorNode {
       if (checked.status == MeasurementStatus::kCovarianceReplaced) ++counts_["default covariance"];
       if (checked.status == MeasurementStatus::kNotFinite) drop("not finite", "");
       if (checked.status == MeasurementStatus::kNoOrientation) drop("quaternion not unit", "");
-      if (checked.measurement) sights.push_back(camera_in_planning * *checked.measurement);
+      if (!checked.measurement) continue;
+      sights.push_back(camera_in_planning * *checked.measurement);
+      sights.back().position_covariance *= params_.measurement_scale;
     }
     if (sights.size() > 1) drop("several tags of the target's id", "the nearest is used");
     return sights;

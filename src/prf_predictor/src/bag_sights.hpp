@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a recorded bag holds of the target, as the predictor sees it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prf_predictor/target_tracker.hpp"
+
+namespace prf_predictor {
+
+struct Sight {
+  double time = 0.0;  // s
+  TagMeasurement measurement;
+};
+
+// Of the tag of this id in the planning frame, by the tf of each image's stamp, in the order of
+// stamps. Throws std::invalid_argument when the bag cannot be read or has fewer than 30.
+[[nodiscard]] std::vector<Sight> sights_in_bag(const std::string& path,
+                                               const std::string& planning_frame, int tag_id);
+
+}  // namespace prf_predictor
