@@ -34,28 +34,43 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& y
   return normal.ldlt().solve(A.transpose() * y);
 }
 
-double power(const Eigen::VectorXd& t, const Eigen::MatrixX3d& y, double W) {
-  const Eigen::VectorXd window = 1 - (2 * t.array() / t(0) - 1).square();  // t runs from t(0) to 0
-  const Eigen::VectorXd cosine = window.array() * (W * t).array().cos();
-  const Eigen::VectorXd sine = window.array() * (W * t).array().sin();
-  return (cosine.transpose() * y).squaredNorm() + (sine.transpose() * y).squaredNorm();
-}
-
-double strongest_frequency(const Eigen::VectorXd& t, const Eigen::MatrixX3d& y) {
-  const double resolution = 2 * M_PI / -t(0);
-  const double step = resolution / kOversampling;
-  double best = 0.0;
-  double best_power = -1.0;
-  for (double W = kTurns * resolution; W <= kFastest; W += step) {
-    const double p = power(t, y, W);
-    if (p > best_power) best = W;
-    best_power = std::max(best_power, p);
+// Windowed cosines and sines of a grid of frequencies, over one window's samples.
+class Periodogram {
+ public:
+  explicit Periodogram(const Eigen::VectorXd& t) {
+    const double resolution = 2 * M_PI / -t(0);  // t runs from t(0) to 0
+    step_ = resolution / kOversampling;
+    first_ = kTurns * resolution;
+    const auto count = static_cast<Eigen::Index>((kFastest - first_) / step_) + 1;
+    cosines_.resize(count, t.size());
+    sines_.resize(count, t.size());
+    const Eigen::ArrayXd window = 1 - (2 * t.array() / t(0) - 1).square();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::ArrayXd phase = (first_ + static_cast<double>(i) * step_) * t.array();
+      cosines_.row(i) = window * phase.cos();
+      sines_.row(i) = window * phase.sin();
+    }
   }
-  const double below = power(t, y, best - step);
-  const double above = power(t, y, best + step);
-  const double curvature = below - 2 * best_power + above;
-  return curvature < 0 ? best + 0.5 * step * (below - above) / curvature : best;
-}
+
+  [[nodiscard]] double strongest_frequency(const Eigen::MatrixX3d& y) const {
+    const Eigen::VectorXd power =
+        (cosines_ * y).rowwise().squaredNorm() + (sines_ * y).rowwise().squaredNorm();
+    Eigen::Index best = 0;
+    power.maxCoeff(&best);
+    double offset = 0.0;  // of the vertex of the parabola through the peak and its neighbours
+    if (best > 0 && best + 1 < power.size()) {
+      const double curvature = power(best - 1) - 2 * power(best) + power(best + 1);
+      if (curvature < 0) offset = 0.5 * (power(best - 1) - power(best + 1)) / curvature;
+    }
+    return first_ + (static_cast<double>(best) + offset) * step_;
+  }
+
+ private:
+  double first_ = 0.0;
+  double step_ = 0.0;
+  Eigen::MatrixXd cosines_;
+  Eigen::MatrixXd sines_;
+};
 
 // Gauss-Newton steps on amplitudes and frequencies together.
 void refine(const Eigen::VectorXd& t, const Eigen::MatrixX3d& y, std::vector<double>& frequencies) {
@@ -110,10 +125,11 @@ std::shared_ptr<const Continuation> Sines::fit(const std::deque<Sample>& samples
     y.row(i) = sample.position;
   }
   const auto affordable = static_cast<int>((now - samples.front().time) / kShortest);
+  const Periodogram periodogram(t);
   std::vector<double> frequencies;
   Eigen::MatrixX3d residual = y.rowwise() - y.colwise().mean();
   for (int k = 0; k < std::min(count_, affordable); ++k) {
-    frequencies.push_back(strongest_frequency(t, residual));
+    frequencies.push_back(periodogram.strongest_frequency(residual));
     refine(t, y, frequencies);
     const Eigen::MatrixXd A = regressors(t, frequencies);
     residual = y - A * least_squares(A, y);

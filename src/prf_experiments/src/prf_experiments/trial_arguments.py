@@ -27,7 +27,7 @@ LAUNCHED = {
                             meaning="recorded motion of the body over the deck"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
-    "predictor": Argument("ukf", **choice(*PREDICTORS),
+    "predictor": Argument("periodic", **choice(*PREDICTORS),
                           meaning="how the target's motion is foretold"),
     "variation": Argument(1.0, **number(0.0, 1.0),
                           meaning="how much the seed changes box, placement, friction, noise"),
