@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_predictor/spectral_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace prf_predictor {
+namespace {
+
+constexpr double kFastest = 0.3;  // m/s, standard deviation of a drift that was seen only once
+
+}  // namespace
 
 Transition transition(const VelocityDecay& drift, double dt) {
   Transition result;
@@ -45,7 +51,7 @@ SpectralBelief::SpectralBelief(const Parts& parts, std::shared_ptr<const std::ve
   for (const int part : *used_) {
     if (part == 0) {
       x_.row(row) = position;
-      P_(row + 1, row + 1) = parts.drift.prior_variance();
+      P_(row + 1, row + 1) = std::min(parts.drift.prior_variance(), kFastest * kFastest);
     } else {
       const Resonance& resonance = parts.resonances[static_cast<std::size_t>(part - 1)];
       P_(row, row) = std::pow(resonance.sigma, 2);
