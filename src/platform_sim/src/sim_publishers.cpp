@@ -10,7 +10,8 @@ namespace platform_sim {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 1000;
-constexpr std::uint32_t kImageQueueSize = 10;
+// 10 s, 92 MB: lockstep does not wait for a recorder that a busy machine holds up.
+constexpr std::uint32_t kImageQueueSize = 300;
 const std::string kOpticalFrame = "camera_optical_frame";
 const std::string kEndEffector = "j2s7s300_end_effector";
 
