@@ -18,15 +18,16 @@ constexpr double kQuietSpeed = 0.03;      // m/s, of the body over the deck
 constexpr double kCadencePerSpeed = 2.5;  // 1/m
 constexpr double kDuty = 0.51;            // part of the cycle that a foot is down
 constexpr double kLift = 0.14;            // m
-constexpr double kFeetAhead = 0.027;      // m, mean of the toes ahead of base_link, as measured
+constexpr double kFeetAhead =
+    0.015;  // m, mean of the toes ahead of base_link; measured standing: 0.027
 const VirtualSprings kSprings{
-    {8.0, 2.8, 100.0}, {2.0, 2.8, 20.0}, {2000.0, 2000.0, 500.0}, {200.0, 200.0, 60.0}};
+    {8.0, 2.8, 100.0}, {2.0, 2.8, 20.0}, {1000.0, 2000.0, 500.0}, {100.0, 200.0, 60.0}};
 const AttitudeReference::Gains kAttitude{1.0, 0.05, 0.25, 0.55};
 constexpr double kHeldPoint = 0.1;  // m ahead of base_link: what is held at the standing height
 // Standard deviation of where a pair of feet lands: ahead, m, to the left, m, and turned, rad; per
 // rad/s of the body's roll and pitch, to which what there is at rest is added.
-const Eigen::Vector3d kPlacing(0.04, 0.015, 0.06);
-constexpr double kRestlessness = 0.02;  // rad/s
+const Eigen::Vector3d kPlacing(0.04, 0.010, 0.045);
+constexpr double kRestlessness = 0.03;  // rad/s
 
 constexpr double kSmoothing = 2.0;   // s, of speed and turning
 constexpr double kBalance = 0.05;    // s2, standing height / g

@@ -268,6 +268,7 @@ TEST(World, NoticesWhenTheRobotIsPulledOver) {
 TEST(World, TwoWorldsAreBitwiseEqual) {
   WorldConfig config = folded_arm();
   config.motion = "heavy";
+  config.gait = "step";
   config.seed = 11;
   const auto outcome = [&] {
     World world(robot_urdf(), config);
