@@ -5,7 +5,7 @@ from functools import partial
 from prf_experiments import table
 from prf_experiments.study import Study
 
-AXES = {"predictor": ["ukf", "periodic", "constant_velocity", "hold"],
+AXES = {"predictor": ["periodic", "ukf", "constant_velocity", "hold"],
         "decision": ["hmm", "forward"], "planner": ["elte", "dmp"]}
 FIXED = {"motion": "heavy", "gait": "step"}
 

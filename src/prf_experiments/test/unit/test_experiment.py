@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import contextlib
+import importlib
 import io
 import subprocess
 import sys
@@ -61,6 +62,14 @@ class Trials(unittest.TestCase):
         self.assertEqual({trial["planner"] for trial in trials}, {"elte", "dmp"})
         self.assertEqual({trial["decision"] for trial in trials}, {"forward"})
         self.assertEqual(set(trials[0]), set(args.parse([], experiment.trial_arguments.LAUNCHED)))
+
+    def test_of_every_study_have_valid_arguments(self):
+        for name in ("table", "compare", "ablate", "reactive"):
+            described = importlib.import_module("prf_experiments." + name).STUDY
+            for trial in study.trials(described, experiment.parse([name, "--seeds", "1"])[0]):
+                for word in experiment.trial_arguments.words(trial):
+                    key, _, text = word.partition(":=")
+                    self.assertEqual(args.value(key, text, experiment.SWEEP_ARGUMENTS), trial[key])
 
 
 if __name__ == "__main__":
