@@ -8,9 +8,13 @@
 #include <prf_msgs/TargetForecast.h>
 #include <ros/duration.h>
 #include <ros/time.h>
+#include <sensor_msgs/JointState.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
+#include <algorithm>
+#include <jaco_v60_description/jaco_kinematics.hpp>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +24,7 @@ namespace prf_decision {
 
 inline constexpr const char* kPlanningFrame = "j2s7s300_link_base";
 inline constexpr const char* kHandFrame = "j2s7s300_end_effector";
+inline const std::string kArmJoints = "j2s7s300_joint_";  // and 1 .. 7, from base to hand
 
 inline Stamp to_core(const ros::Time& time) {
   return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec);
@@ -48,6 +53,23 @@ inline Pose to_core(const geometry_msgs::Pose& message) {
   // Out of tolerance it stays as it is, and is refused by validate().
   if (std::abs(pose.orientation.norm() - 1) <= kNormTolerance) pose.orientation.normalize();
   return pose;
+}
+
+// The measured hand; none when a joint of the arm is missing or not finite.
+inline std::optional<Pose> hand_of(const sensor_msgs::JointState& joints) {
+  jaco_v60_description::JointVector q;
+  int found = 0;
+  for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
+    const std::string& name = joints.name[i];
+    if (name.size() != kArmJoints.size() + 1 || name.rfind(kArmJoints, 0) != 0) continue;
+    const int joint = name.back() - '1';
+    if (joint < 0 || joint > 6) continue;
+    q[joint] = joints.position[i];
+    ++found;
+  }
+  if (found != 7 || !q.allFinite()) return std::nullopt;
+  const Eigen::Isometry3d hand = jaco_v60_description::forward(q);
+  return Pose{hand.translation(), Eigen::Quaterniond(hand.linear()).normalized()};
 }
 
 inline void require_planning_frame(const std::string& frame_id) {

@@ -164,7 +164,7 @@ std::optional<Objection> Decision::object(const Tick& tick) const {
   if (!parameters_.framework) return std::nullopt;
   if (tick.plan_stale) return hazard("planner silent");
   if (plan_refusal_) return hazard("planner has no plan: " + *plan_refusal_);
-  return object_to_goal(parameters_.guards, goal_at(tick.stamp + parameters_.lead).pose.position);
+  return object_to_goal(parameters_.guards, goal_at(tick.stamp + parameters_.lead).pose);
 }
 
 Decision::Assessment Decision::assess(const Tick& tick) const {
@@ -204,7 +204,8 @@ void Decision::change_state(const Tick& tick, const Assessment& assessment) {
   const Duration elapsed = tick.stamp - begun_;
   if (elapsed > execution_->time_limit &&
       try_event(tick.stamp, Event::kTimeUp,
-                sentence("not done within ", to_seconds(execution_->time_limit), " s"))) {
+                sentence("not done within ", to_seconds(execution_->time_limit), " s",
+                         assessment.reason.empty() ? "" : ": ", assessment.reason))) {
     return;
   }
   if (try_event(tick.stamp, assessment.event, assessment.reason)) return;
@@ -245,6 +246,8 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
   }
   const std::optional<MovingPose> wanted = reference(tick.stamp, objected);
   const bool holds = state_ == State::kWaiting || state_ == State::kStopped;
+  // The arm stands where it stopped, or was left by a decision before this one.
+  if (tick.hand && (holds || !setpoint_)) setpoint_ = tick.hand;
   std::optional<MovingPose> setpoint;
   if (wanted) {
     setpoint =

@@ -51,7 +51,7 @@ class DecisionNode {
 
   void on_joint_states(const sensor_msgs::JointState& message) {
     action_.see_joints(message);
-    account("joint_states", gate_.push_tick(to_core(message.header.stamp)));
+    account("joint_states", gate_.push_tick(to_core(message.header.stamp), hand_of(message)));
     process();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/guards.hpp"
 
+#include <jaco_v60_description/jaco_kinematics.hpp>
 #include <stdexcept>
 
 #include "text.hpp"
@@ -61,12 +62,18 @@ std::optional<Objection> object_to_forecast(const GuardParameters& guards,
   return std::nullopt;
 }
 
-std::optional<Objection> object_to_goal(const GuardParameters& guards,
-                                        const Eigen::Vector3d& hand_goal) {
-  const double distance = (hand_goal - kShoulder).norm();
-  if (distance <= guards.max_reach) return std::nullopt;
-  return Objection{Event::kHazard, sentence("goal ", distance, " m from the shoulder, reach ",
-                                            guards.max_reach, " m")};
+std::optional<Objection> object_to_goal(const GuardParameters& guards, const Pose& hand_goal) {
+  const double distance = (hand_goal.position - kShoulder).norm();
+  if (distance > guards.max_reach) {
+    return Objection{Event::kHazard, sentence("goal ", distance, " m from the shoulder, reach ",
+                                              guards.max_reach, " m")};
+  }
+  const Eigen::Isometry3d pose =
+      Eigen::Translation3d(hand_goal.position) * hand_goal.orientation.normalized();
+  if (jaco_v60_description::any_inverse(pose).status == jaco_v60_description::IkStatus::kSolved) {
+    return std::nullopt;
+  }
+  return Objection{Event::kHazard, "no joint position within limits gives the goal"};
 }
 
 }  // namespace prf_decision

@@ -12,7 +12,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr const char* kArmJoints = "j2s7s300_joint_";
 constexpr double kStill = 0.02;                          // rad/s, of every joint of a standing arm
 constexpr Duration kMaxBraking = milliseconds(1000);     // data time
 constexpr Duration kFeedbackPeriod = milliseconds(100);  // data time, while the state lasts

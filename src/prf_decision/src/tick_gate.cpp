@@ -54,13 +54,13 @@ void TickGate::begin_at(Stamp first_tick) {
   if (!forecasts_.empty()) newest_forecast_ = forecasts_.back().stamp;
 }
 
-Push TickGate::push_tick(Stamp stamp) {
+Push TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
   if (newest_tick_ == stamp) return Push::kOld;
   const bool new_run = newest_tick_ && stamp < *newest_tick_;
   if (new_run) begin_new_run();
   newest_tick_ = stamp;
   if (!first_tick_) begin_at(stamp);
-  ticks_.push_back(stamp);
+  ticks_.push_back({stamp, hand});
   return new_run ? Push::kNewRun : Push::kTaken;
 }
 
@@ -105,7 +105,8 @@ bool TickGate::answer_is_due() const {
 std::optional<Tick> TickGate::next() {
   if (ticks_.empty()) return std::nullopt;
   Tick tick;
-  tick.stamp = ticks_.front();
+  tick.stamp = ticks_.front().stamp;
+  tick.hand = ticks_.front().hand;
   const bool forecast_missing = !forecast_stale_ && forecast_may_be_due(tick.stamp);
   const bool answer_missing = !plan_stale_ && answer_is_due();
   if (forecast_missing || answer_missing) {

@@ -26,6 +26,7 @@ class World {
   Outcome tick() {
     Tick tick;
     tick.stamp = now_;
+    tick.hand = hand;
     tick.forecast_stale = forecast_stale;
     tick.plan_stale = plan_stale;
     if (count_ % 3 == 0 && !forecast_stale) {
@@ -67,8 +68,10 @@ class World {
   }
 
   Decision& decision() { return decision_; }
+  void forget_setpoint() { setpoint_.reset(); }  // the arm was moved meanwhile
   void leap(double seconds) { now_ += from_seconds(seconds); }
 
+  std::optional<Pose> hand;  // measured
   Eigen::Vector3d position = kTarget;
   Eigen::Vector3d velocity = kStill;
   TargetStatus status = TargetStatus::kTracking;

@@ -134,6 +134,25 @@ TEST(Order, PausesOnTheWayBackForAHazardAndGoesOn) {
   EXPECT_LT(world.tick().progress.cursor, paused);
 }
 
+// A decision that was started anew, or an arm that was moved while it held.
+TEST(Order, BeginsWhereTheHandIsWithoutAJump) {
+  World world;
+  world.hand = pose_at(0.5, 0.1, 0.45);
+  const Outcome first = world.until(State::kForward, 0.1);
+  ASSERT_TRUE(first.setpoint);
+  EXPECT_LT((first.setpoint->pose.position - world.hand->position).norm(), 0.006);
+  world.run(0.2);
+  world.decision().preempt();
+  world.tick();
+  world.hand = pose_at(0.4, -0.1, 0.45);
+  world.run(0.1);
+  world.decision().begin({{}, {}, true});
+  world.forget_setpoint();
+  const Outcome again = world.tick();
+  EXPECT_EQ(again.progress.state, State::kForward);
+  EXPECT_LT((again.setpoint->pose.position - world.hand->position).norm(), 0.006);
+}
+
 TEST(Order, ResumesWhereTheLastExecutionEnded) {
   World world;
   world.run(0.6);

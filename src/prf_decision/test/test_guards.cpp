@@ -36,9 +36,14 @@ TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
 
 TEST(Guards, RefuseAGoalOutOfReach) {
   const GuardParameters guards = usual_guards();
-  EXPECT_FALSE(object_to_goal(guards, {0.9, 0, 0.2755}));
-  EXPECT_EQ(object_to_goal(guards, {0, -1.02, 0.2755})->reason,
-            "goal 1.02 m from the shoulder, reach 0.95 m");
+  Pose goal;
+  goal.orientation = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());  // the hand looks along x
+  goal.position = {0.9, 0, 0.2755};
+  EXPECT_FALSE(object_to_goal(guards, goal));
+  goal.position = {0, -1.02, 0.2755};
+  EXPECT_EQ(object_to_goal(guards, goal)->reason, "goal 1.02 m from the shoulder, reach 0.95 m");
+  goal.position = {0.4, 0, 0.2755};  // the forearm would have to fold into the upper arm
+  EXPECT_EQ(object_to_goal(guards, goal)->reason, "no joint position within limits gives the goal");
 }
 
 TEST(Guards, RefuseTheirOwnParametersByName) {

@@ -36,8 +36,8 @@ struct Objection {
 [[nodiscard]] std::optional<Objection> object_to_forecast(const GuardParameters& guards,
                                                           const Forecast& forecast);
 
-// The hand's goal is farther than the arm reaches.
+// The hand's goal is farther than the arm reaches, or no joint position within limits gives it.
 [[nodiscard]] std::optional<Objection> object_to_goal(const GuardParameters& guards,
-                                                      const Eigen::Vector3d& hand_goal);
+                                                      const Pose& hand_goal);
 
 }  // namespace prf_decision

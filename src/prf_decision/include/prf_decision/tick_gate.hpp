@@ -44,6 +44,7 @@ struct ForecastArrival {
 
 struct Tick {
   Stamp stamp{0};
+  std::optional<Pose> hand;                // as measured; none: not known
   std::vector<ForecastArrival> forecasts;  // that come into force at this tick, in order
   std::optional<PlanAnswer> answer;        // that comes into force at this tick, the newest one
   bool forecast_stale = false;
@@ -61,7 +62,7 @@ class TickGate {
  public:
   explicit TickGate(const GateParameters& parameters);
 
-  Push push_tick(Stamp stamp);
+  Push push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt);
   Push push_forecast(ForecastArrival arrival);
   Push push_answer(PlanAnswer answer);
 
@@ -77,7 +78,12 @@ class TickGate {
   [[nodiscard]] bool answer_is_due() const;
 
   GateParameters parameters_;
-  std::deque<Stamp> ticks_;
+  struct JointTick {
+    Stamp stamp;
+    std::optional<Pose> hand;
+  };
+
+  std::deque<JointTick> ticks_;
   std::deque<ForecastArrival> forecasts_;
   std::deque<PlanAnswer> answers_;
   std::optional<Stamp> newest_tick_;
