@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kVelocityLifetime = 0.02;  // s
-constexpr double kDryFriction = 0.1;        // Nm, of a guided joint
-constexpr double kViscousFriction = 1.0;    // Nm s/rad, of a guided joint
+constexpr long kTakePeriodMs = 10;
+constexpr double kTimeTolerance = 1e-6;  // s
+constexpr std::size_t kLongestQueue = 2000;
+constexpr double kDryFriction = 0.1;      // Nm, of a guided joint
+constexpr double kViscousFriction = 1.0;  // Nm s/rad, of a guided joint
 
 void require_limit(const RobotJoint& joint, const std::string& what, double value) {
   if (value > 0.0) return;
@@ -46,8 +49,8 @@ void JointMotor::drive(double velocity, double max_torque) {
 double JointMotor::torque() const { return motor_->getAppliedImpulse(0) / scene_.time_step(); }
 
 ArmServo::ArmServo(BulletScene& scene, RobotModel& robot, const std::vector<std::string>& joints,
-                   double gain)
-    : robot_(robot), gain_(gain) {
+                   double gain, double latency)
+    : robot_(robot), gain_(gain), latency_(latency) {
   positions_.resize(static_cast<Eigen::Index>(joints.size()));
   for (const std::string& name : joints) {
     const RobotJoint& joint = robot.joint(name);
@@ -62,13 +65,22 @@ ArmServo::ArmServo(BulletScene& scene, RobotModel& robot, const std::vector<std:
 
 void ArmServo::command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities,
                        double time) {
-  positions_ = positions;
-  velocities_ = velocities;
-  command_time_ = time;
+  queue_.push_back({positions, velocities, time});
+  if (queue_.size() > kLongestQueue) queue_.pop_front();
+}
+
+void ArmServo::take_command(double time) {
+  if (std::lround(time * 1000.0) % kTakePeriodMs != 0 || queue_.empty()) return;
+  if (time - queue_.front().time < latency_ - kTimeTolerance) return;
+  positions_ = queue_.front().positions;
+  velocities_ = queue_.front().velocities;
+  taken_ = time;
+  queue_.pop_front();
 }
 
 void ArmServo::update(double time) {
-  const bool is_fresh = time - command_time_ < kVelocityLifetime;
+  take_command(time);
+  const bool is_fresh = time - taken_ < kVelocityLifetime;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const RobotJoint& joint = *joints_[i];
     const auto index = static_cast<Eigen::Index>(i);

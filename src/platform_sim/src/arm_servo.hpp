@@ -4,6 +4,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
 #include <Eigen/Core>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,26 +41,40 @@ class ArmDrive {
 };
 
 /// Position servos: dq = clamp(dq_command + gain (q_command - q), +-dq_max), at most the joint's
-/// torque. Joints without position limits take the shorter way round.
+/// torque: a first-order lag of 1/gain where no velocity is commanded. Joints without position
+/// limits take the shorter way round.
+///
+/// Commands wait in a queue as in the arm's driver: each for `latency` at least, and one is taken
+/// every 10 ms. Sent faster than that they pile up, of 2000 the oldest is lost.
 class ArmServo : public ArmDrive {
  public:
   /// Throws std::invalid_argument if a joint has no velocity or effort limit.
   ArmServo(BulletScene& scene, RobotModel& robot, const std::vector<std::string>& joints,
-           double gain);
+           double gain, double latency);
 
-  /// Holds `positions`; `velocities` lapse 20 ms after `time`.
+  /// Queues a command. Taken, it holds `positions`; `velocities` lapse 20 ms later.
   void command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities, double time);
   void update(double time) override;
   [[nodiscard]] Eigen::VectorXd efforts() const override;
 
  private:
+  struct Command {
+    Eigen::VectorXd positions;
+    Eigen::VectorXd velocities;
+    double time = 0.0;
+  };
+
+  void take_command(double time);
+
   RobotModel& robot_;
   double gain_;
+  double latency_;
+  std::deque<Command> queue_;
   std::vector<const RobotJoint*> joints_;
   std::vector<std::unique_ptr<JointMotor>> motors_;
   Eigen::VectorXd positions_;
   Eigen::VectorXd velocities_;
-  double command_time_ = 0.0;
+  double taken_ = 0.0;  // s, when the command in force was taken
 };
 
 /// Back-drivable arm: torques balance gravity, motors only brake with dry and viscous friction.

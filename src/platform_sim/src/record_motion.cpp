@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records how the robot moves on the platform while its arm is held still.
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -102,11 +103,14 @@ bool record(const Recording& recording) {
   if (!file) throw std::invalid_argument("--out = " + recording.out + " cannot be written");
   World world(platform_sim::installed_robot_description(), recording.config);
   std::string rows;
+  const auto begin = std::chrono::steady_clock::now();
   platform_sim::run_headless(world, recording.duration, recording.rate,
                              [&](const World& now) { rows += row_of(now); });
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   file << header_of(recording, world) << rows;
   file.close();
   if (!file) throw std::runtime_error(recording.out + " cannot be written");
+  std::printf("%.2f s simulated in %.2f s\n", world.time(), wall.count());
   if (world.fallen()) {
     std::cerr << "record_motion: the robot fell at " << world.time() << " s\n";
   }

@@ -51,6 +51,7 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
       one_of("arm_mode", values.text("arm_mode"), {"servo", "compliant"}) == "servo"
           ? ArmMode::kServo
           : ArmMode::kCompliant;
+  result.world.arm_latency = values.number("arm_latency");
   const std::vector<double> start = values.numbers("initial_positions", 7);
   for (std::size_t i = 0; i < start.size(); ++i) {
     require_within("initial_positions[" + std::to_string(i) + "]", start[i], -2.0 * M_PI,

@@ -96,6 +96,7 @@ void WorldConfig::validate() const {
   require_between("base_start_y", base_start_y, -0.3, 0.3);
   require_between("base_start_yaw", base_start_yaw, -0.5, 0.5);
   require_between("servo_gain", servo_gain, 0.1, 200.0);
+  require_between("arm_latency", arm_latency, 0.0, 0.2);
   for (int i = 0; i < arm_start.size(); ++i) {
     require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
   }
@@ -181,7 +182,8 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
   }
   place_robot(config);
   if (config.arm_mode == ArmMode::kServo) {
-    auto servo = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain);
+    auto servo = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
+                                            config.arm_latency);
     servo_ = servo.get();
     arm_ = std::move(servo);
   } else {

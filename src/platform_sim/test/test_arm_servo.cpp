@@ -34,7 +34,7 @@ struct Arm {
 
 TEST(ArmServo, ReachesAStepWithoutExceedingVelocityOrTorque) {
   Arm arm;
-  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0);
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
   const Eigen::Vector2d goal(1.5, -1.0);
   servo.command(goal, Eigen::Vector2d::Zero(), arm.time);
   Eigen::Vector2d fastest = Eigen::Vector2d::Zero();
@@ -51,7 +51,7 @@ TEST(ArmServo, ReachesAStepWithoutExceedingVelocityOrTorque) {
 
 TEST(ArmServo, HoldsAgainstGravityWithTheTorqueThatGravityAsksFor) {
   Arm arm;
-  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0);
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
   servo.command(Eigen::Vector2d(1.0, 0.5), Eigen::Vector2d::Zero(), arm.time);
   for (int step = 0; step < 3000; ++step) arm.step(servo);
   EXPECT_LT((servo.efforts() + arm.robot.gravity_torques()).norm(), 1e-6);
@@ -59,7 +59,7 @@ TEST(ArmServo, HoldsAgainstGravityWithTheTorqueThatGravityAsksFor) {
 
 TEST(ArmServo, FollowsAMovingCommandWithinOnePeriodAndStopsWithoutOne) {
   Arm arm;
-  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0);
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
   const Eigen::Vector2d rate(0.3, -0.2);
   for (int step = 0; step < 1000; ++step) {
     if (step % 10 == 0) servo.command(rate * arm.time, rate, arm.time);
@@ -72,9 +72,36 @@ TEST(ArmServo, FollowsAMovingCommandWithinOnePeriodAndStopsWithoutOne) {
   EXPECT_LT((arm.positions() - last_command).norm(), 1e-5);
 }
 
+// After a step that needs neither all speed nor all torque: q(t) = goal (1 - exp(-gain t)).
+TEST(ArmServo, AnswersAStepAsAFirstOrderLag) {
+  Arm arm;
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
+  const Eigen::Vector2d goal(0.004, -0.002);
+  servo.command(goal, Eigen::Vector2d::Zero(), arm.time);
+  for (int step = 1; step <= 200; ++step) {
+    arm.step(servo);
+    const double share = 1.0 - std::exp(-20.0 * arm.time);
+    EXPECT_LT((arm.positions() - share * goal).norm(), 0.02 * goal.norm()) << arm.time;
+  }
+}
+
+TEST(ArmServo, TakesOneCommandEveryTenMillisecondsAfterTheLatency) {
+  Arm arm;
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.03);
+  const Eigen::Vector2d rate(0.05, -0.03);
+  for (int i = 0; i < 5; ++i) servo.command(Eigen::Vector2d::Zero(), (i % 2) * rate, arm.time);
+  // Commands 1 and 3 move, from 40 and 60 ms on for one period each; 0, 2 and 4 stop.
+  for (int step = 0; step < 100; ++step) {
+    arm.step(servo);
+    const bool moves = (step >= 40 && step < 50) || (step >= 60 && step < 70);
+    const double speed = arm.velocities().norm() / rate.norm();
+    EXPECT_TRUE(moves ? speed > 0.7 : speed < 0.4) << step << ": " << speed;
+  }
+}
+
 TEST(ArmServo, ContinuousJointTakesTheShorterWay) {
   Arm arm;
-  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0);
+  ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
   servo.command(Eigen::Vector2d(0.0, 5.0), Eigen::Vector2d::Zero(), arm.time);
   for (int step = 0; step < 3000; ++step) arm.step(servo);
   EXPECT_NEAR(arm.positions()[1], 5.0 - 2.0 * 3.14159265358979323846, 1e-6);
@@ -88,8 +115,8 @@ TEST(ArmServo, RefusesJointsWithoutLimits) {
       "<axis xyz='0 1 0'/></joint></robot>";
   BulletScene scene(kTimeStep);
   RobotModel robot(scene, urdf, RobotModel::Base::kFixed, untouchable);
-  EXPECT_THROW(ArmServo(scene, robot, {"pivot"}, 20.0), std::invalid_argument);
-  EXPECT_THROW(ArmServo(scene, robot, {"hinge"}, 20.0), std::invalid_argument);
+  EXPECT_THROW(ArmServo(scene, robot, {"pivot"}, 20.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(ArmServo(scene, robot, {"hinge"}, 20.0, 0.0), std::invalid_argument);
 }
 
 TEST(CompliantArm, StaysWhereItIsLeft) {

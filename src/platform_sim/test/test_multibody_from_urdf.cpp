@@ -166,6 +166,35 @@ TEST(RobotModel, ChaoticSwingKeepsItsEnergy) {
   EXPECT_LT(drift, 0.02 * (start - lowest_potential));
 }
 
+// What an arm does to the body it stands on: without outer forces the common centre of mass rests,
+// and a joint driven against the body turns the body the other way.
+TEST(RobotModel, InnerTorquesMoveABodyInSpaceButNotTheCentreOfMass) {
+  BulletScene scene(kTimeStep);
+  scene.world().setGravity(btVector3(0.0, 0.0, 0.0));
+  std::string urdf = two_link_robot();
+  const std::string base = "<link name='base'/>";
+  urdf.replace(
+      urdf.find(base), base.size(),
+      "<link name='base'>" +
+          inertial(5.0, "0 0 0.1", "ixx='0.1' ixy='0' ixz='0' iyy='0.12' iyz='0' izz='0.08'") +
+          "</link>");
+  RobotModel robot(scene, urdf, RobotModel::Base::kFloating, untouchable);
+  robot.update_poses();
+  const Eigen::Vector3d centre = robot.centre_of_mass();
+  const Eigen::Isometry3d before = robot.frame("base").pose;
+  double farthest = 0.0;
+  for (int step = 0; step < 1000; ++step) {
+    robot.apply_torque(robot.joint("shoulder"), 0.5 * std::cos(6.0 * step * kTimeStep));
+    robot.apply_torque(robot.joint("elbow"), -0.1);
+    scene.step();
+    farthest = std::max(farthest, (robot.centre_of_mass() - centre).norm());
+  }
+  const Eigen::Isometry3d after = robot.frame("base").pose;
+  EXPECT_GT((after.translation() - before.translation()).norm(), 0.01);
+  EXPECT_GT(Eigen::AngleAxisd(after.linear() * before.linear().transpose()).angle(), 0.05);
+  EXPECT_LT(farthest, 1e-3);
+}
+
 TEST(RobotModel, PositionLimitStopsAJoint) {
   TwoLinks two;
   two.pose(2.9, 0.0);

@@ -182,7 +182,7 @@ class StartTest(unittest.TestCase):
 class ParameterTest(unittest.TestCase):
     CATALOGUE = [
         ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"), ("body_motion", "absent.csv"),
-        ("body_motion", 0), ("gait", "gallop"), ("seed", -1), ("seed", 1.5), ("variation", 1.5),
+        ("body_motion", 0), ("gait", "gallop"), ("seed", -1), ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
         ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
         ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
         ("lockstep", "yes"), ("paused", 1), ("answer_timeout", 0.0),

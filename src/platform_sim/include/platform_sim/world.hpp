@@ -32,6 +32,7 @@ struct WorldConfig {
   ArmMode arm_mode = ArmMode::kServo;
   ArmVector arm_start = ArmVector::Zero();  ///< rad
   double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
+  double arm_latency = 0.02;                ///< s, from a command to the arm's servos
   TargetBox target;
 
   /// Throws std::invalid_argument with name, value and bound.
@@ -80,8 +81,8 @@ class World {
   /// The body is low, tipped over, or touches the platform; never if it is carried.
   [[nodiscard]] bool fallen() const;
 
-  /// Servo mode: set-point of the arm, held until the next one. The velocity is a feed-forward
-  /// that lapses 20 ms after the call, so that an arm without commands comes to rest.
+  /// Servo mode: queues a set-point of the arm, see ArmServo; held until the next one. The velocity
+  /// is a feed-forward that lapses 20 ms later, so that an arm without commands comes to rest.
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
   /// Compliant mode: force, N, at the origin of j2s7s300_end_effector and torque, Nm, on the hand,
   /// in world axes, held until the next call.

@@ -31,6 +31,10 @@ class FrameworkGraph(unittest.TestCase):
         for node in NODES:
             self.assertIn(node, self.heard)
 
+    def test_runs_without_the_simulator_on_the_clock_of_the_robot(self):
+        self.assertIs(self.master.getParam("/use_sim_time"), False)
+        self.assertNotIn("/platform_sim", self.heard)
+
     def test_no_node_hears_the_ground_truth(self):
         truth = {"/" + topic for topic in recording.GROUND_TRUTH}
         for node in NODES:
