@@ -6,6 +6,8 @@ import os
 import subprocess
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
+from itertools import count
 
 import rospkg
 import rospy
@@ -15,16 +17,15 @@ import yaml
 PACKAGE = rospkg.RosPack().get_path("prf_decision")
 CONFIG = os.path.join(PACKAGE, "config", "decision.yaml")
 HMM = os.path.join(PACKAGE, "config", "hmm_default.yaml")
-NAME = "/refused_decision"
+NAMES = (f"refused_decision_{number}" for number in count())
+AT_ONCE = 4
 
 
-def start_with(parameters):
+def start_with(name, parameters):
     """Exit code and output of the node with these private parameters."""
-    if rospy.has_param(NAME):
-        rospy.delete_param(NAME)
-    rospy.set_param(NAME, parameters)
-    command = ["rosrun", "prf_decision", "decision_node", "__name:=" + NAME[1:]]
-    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30,
+    rospy.set_param("/" + name, parameters)
+    command = ["rosrun", "prf_decision", "decision_node", "__name:=" + name]
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60,
                             check=False)
     return result.returncode, result.stdout.decode()
 
@@ -35,16 +36,20 @@ class DecisionRefusals(unittest.TestCase):
             self.valid = yaml.safe_load(file)
         self.valid.update(framework=True, autostart=True, demonstration="", hmm_file=HMM)
 
-    def assert_refused(self, parameters, culprit):
-        code, output = start_with(parameters)
-        self.assertEqual(code, 2, (culprit, output))
-        fatal = [line for line in output.splitlines() if "FATAL" in line]
-        self.assertEqual(len(fatal), 1, output)
-        self.assertIn(culprit, fatal[0])
+    def assert_refused(self, catalogue):
+        """Each of (parameters, what the refusal must say)."""
+        with ThreadPoolExecutor(AT_ONCE) as pool:
+            starts = [pool.submit(start_with, next(NAMES), each) for each, _ in catalogue]
+        for start, (_, culprit) in zip(starts, catalogue):
+            code, output = start.result()
+            self.assertEqual(code, 2, (culprit, output))
+            fatal = [line for line in output.splitlines() if "FATAL" in line]
+            self.assertEqual(len(fatal), 1, output)
+            self.assertIn(culprit, fatal[0])
 
     def test_every_missing_key_is_named(self):
-        for key in self.valid:
-            self.assert_refused({k: v for k, v in self.valid.items() if k != key}, key)
+        self.assert_refused([({k: v for k, v in self.valid.items() if k != key}, key)
+                             for key in self.valid])
 
     def test_every_bad_value_is_named_with_its_bound(self):
         nan, infinity = float("nan"), float("inf")
@@ -72,8 +77,8 @@ class DecisionRefusals(unittest.TestCase):
             ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
             ("speed", 1.0, "speed = 1, must be absent"),
         ]
-        for key, value, culprit in catalogue:
-            self.assert_refused(dict(self.valid, **{key: value}), culprit)
+        self.assert_refused([(dict(self.valid, **{key: value}), culprit)
+                             for key, value, culprit in catalogue])
 
     def test_a_faulty_hmm_file_is_named_with_its_key(self):
         with open(HMM, encoding="utf-8") as file:
@@ -81,8 +86,8 @@ class DecisionRefusals(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
             file.write(text.replace("forward: 0.80", "forward: 0.90"))
             file.flush()
-            self.assert_refused(dict(self.valid, hmm_file=file.name),
-                                "HMM file '%s': initial sums to 1.1, must be 1" % file.name)
+            self.assert_refused([(dict(self.valid, hmm_file=file.name),
+                                  f"HMM file '{file.name}': initial sums to 1.1, must be 1")])
 
 
 if __name__ == "__main__":
