@@ -2,158 +2,78 @@
 #include "platform_sim/camera_renderer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
 
-#include "convex_raster.hpp"
+#include "camera_canvas.hpp"
 #include "scene_facets.hpp"
-#include "tag_texture.hpp"
 
 namespace platform_sim {
-namespace {
-
-constexpr double kNearPlane = 0.01;  // m
-
-void require(bool holds, const std::string& name, double value, const std::string& bound) {
-  if (!holds) {
-    throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be " + bound);
-  }
-}
-
-// Sutherland and Hodgman (1974), for the one plane z = kNearPlane.
-std::vector<Eigen::Vector3d> clip_near(const std::array<Eigen::Vector3d, 4>& corners) {
-  std::vector<Eigen::Vector3d> clipped;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3d& a = corners[i];
-    const Eigen::Vector3d& b = corners[(i + 1) % corners.size()];
-    if (a.z() >= kNearPlane) clipped.push_back(a);
-    if ((a.z() >= kNearPlane) != (b.z() >= kNearPlane)) {
-      clipped.push_back(a + (kNearPlane - a.z()) / (b.z() - a.z()) * (b - a));
-    }
-  }
-  return clipped;
-}
-
-unsigned char blend(unsigned char below, unsigned char above, float coverage) {
-  const float value = static_cast<float>(below) +
-                      coverage * (static_cast<float>(above) - static_cast<float>(below));
-  return static_cast<unsigned char>(value + 0.5F);
-}
-
-}  // namespace
-
-void PinholeCamera::validate() const {
-  require(width > 0 && width <= 4096, "width", width, "in 1..4096 px");
-  require(height > 0 && height <= 4096, "height", height, "in 1..4096 px");
-  require(fx > 0.0 && std::isfinite(fx), "fx", fx, "finite and > 0 px");
-  require(fy > 0.0 && std::isfinite(fy), "fy", fy, "finite and > 0 px");
-  require(std::isfinite(cx), "cx", cx, "finite");
-  require(std::isfinite(cy), "cy", cy, "finite");
-}
 
 // Painter's algorithm: the separators of the bodies give the order for any place of the camera.
 class CameraRenderer::Scene {
  public:
-  Scene(const PinholeCamera& camera, const TargetBox& target)
-      : width_(camera.width),
-        height_(camera.height),
-        room_(room_facets()),
-        bodies_(platform_bodies(target)),
-        tag_in_platform_(target.tag_in_platform()),
-        tag_module_(target.tag_size / tag_.black_side()) {
-    // Pixel coordinates of the scan conversion start at the first pixel's corner, not its centre.
-    intrinsics_ << camera.fx, 0.0, camera.cx + 0.5, 0.0, camera.fy, camera.cy + 0.5, 0.0, 0.0, 1.0;
-  }
+  Scene(const PinholeCamera& camera, const TargetBox& target, const Clutter& clutter)
+      : lens_(camera),
+        room_(room_facets(target)),
+        posters_(room_posters(target, clutter)),
+        platform_(platform_body()),
+        bodies_(target_bodies(target)),
+        tag_(tag_print(target)) {}
 
   void paint(const CameraView& view, cv::Mat& image) const {
+    CameraCanvas canvas(lens_, image);
     const Eigen::Isometry3d world_to_camera = view.camera.inverse();
-    for (const Facet& facet : room_) paint_facet(facet, world_to_camera, image);
+    for (const Facet& facet : room_) canvas.paint(facet, world_to_camera);
+    for (const Print& poster : posters_) canvas.paint(poster, world_to_camera);
 
-    const Eigen::Isometry3d to_camera = world_to_camera * view.platform;
+    const Eigen::Isometry3d platform_to_camera = world_to_camera * view.platform;
+    const bool is_above = platform_to_camera.inverse().translation().z() >= 0.0;
+    if (is_above) paint_body(platform_, platform_to_camera, canvas);
+    paint_target(world_to_camera * view.carrier, canvas);
+    if (!is_above) paint_body(platform_, platform_to_camera, canvas);
+  }
+
+ private:
+  void paint_target(const Eigen::Isometry3d& to_camera, CameraCanvas& canvas) const {
     const Eigen::Vector3d eye = to_camera.inverse().translation();
     const auto is_behind = [&](const Body& body) {
       return body.separator.signedDistance(eye) >= 0;
     };
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!is_behind(bodies_[i])) continue;
-      paint_body(bodies_[i], to_camera, image);
-      if (i == kBackWall) paint_tag(to_camera, image);
+    for (const Body& body : bodies_) {
+      if (!is_behind(body)) continue;
+      paint_body(body, to_camera, canvas);
+      if (body.carries_tag) canvas.paint(tag_, to_camera);
     }
-    for (std::size_t i = bodies_.size(); i-- > 0;) {
-      if (!is_behind(bodies_[i])) paint_body(bodies_[i], to_camera, image);
+    for (auto body = bodies_.rbegin(); body != bodies_.rend(); ++body) {
+      if (!is_behind(*body)) paint_body(*body, to_camera, canvas);
     }
   }
 
- private:
-  void paint_body(const Body& body, const Eigen::Isometry3d& to_camera, cv::Mat& image) const {
-    for (const Facet& facet : body.facets) paint_facet(facet, to_camera, image);
+  static void paint_body(const Body& body, const Eigen::Isometry3d& to_camera,
+                         CameraCanvas& canvas) {
+    for (const Facet& facet : body.facets) canvas.paint(facet, to_camera);
   }
 
-  // The facet's outline in the image, empty if its back is seen or it is behind the camera.
-  Polygon2d project(const Facet& facet, const Eigen::Isometry3d& to_camera) const {
-    Facet seen;
-    for (std::size_t i = 0; i < 4; ++i) seen.corners[i] = to_camera * facet.corners[i];
-    if (seen.normal().dot(seen.corners[0]) >= 0.0) return {};
-    Polygon2d outline;
-    for (const Eigen::Vector3d& point : clip_near(seen.corners)) {
-      outline.push_back((intrinsics_ * point).hnormalized());
-    }
-    return outline;
-  }
-
-  void paint_facet(const Facet& facet, const Eigen::Isometry3d& to_camera, cv::Mat& image) const {
-    rasterize_convex(project(facet, to_camera), width_, height_,
-                     [&](int y, int begin, int end, const float* coverage) {
-                       unsigned char* row = image.ptr(y);
-                       if (!coverage) {
-                         std::fill(row + begin, row + end, facet.grey);
-                         return;
-                       }
-                       for (int x = begin; x < end; ++x) {
-                         row[x] = blend(row[x], facet.grey, coverage[x - begin]);
-                       }
-                     });
-  }
-
-  void paint_tag(const Eigen::Isometry3d& platform_to_camera, cv::Mat& image) const {
-    const Eigen::Isometry3d tag_to_camera = platform_to_camera * tag_in_platform_;
-    const double half = 0.5 * tag_module_ * tag_.side();
-    const Facet face{{Eigen::Vector3d(-half, -half, 0.0), Eigen::Vector3d(half, -half, 0.0),
-                      Eigen::Vector3d(half, half, 0.0), Eigen::Vector3d(-half, half, 0.0)},
-                     0};
-    // Point of the tag plane at module (u, v): x = u m - half, y = half - v m.
-    Eigen::Matrix3d from_modules;
-    from_modules.col(0) = tag_to_camera.linear().col(0) * tag_module_;
-    from_modules.col(1) = -tag_to_camera.linear().col(1) * tag_module_;
-    from_modules.col(2) = tag_to_camera * Eigen::Vector3d(-half, half, 0.0);
-    const Eigen::Matrix3d to_modules = (intrinsics_ * from_modules).inverse();
-
-    rasterize_convex(project(face, tag_to_camera), width_, height_,
-                     [&](int y, int begin, int end, const float* coverage) {
-                       unsigned char* row = image.ptr(y);
-                       for (int x = begin; x < end; ++x) {
-                         const unsigned char grey = tag_.mean_over_pixel(to_modules, x, y);
-                         row[x] = coverage ? blend(row[x], grey, coverage[x - begin]) : grey;
-                       }
-                     });
-  }
-
-  int width_, height_;
-  Eigen::Matrix3d intrinsics_;
+  CameraLens lens_;
   std::vector<Facet> room_;
+  std::vector<Print> posters_;
+  Body platform_;
   std::vector<Body> bodies_;
-  TagTexture tag_;
-  Eigen::Isometry3d tag_in_platform_;
-  double tag_module_;
+  Print tag_;
 };
 
-CameraRenderer::CameraRenderer(const PinholeCamera& camera, const TargetBox& target)
+CameraRenderer::CameraRenderer(const PinholeCamera& camera, const TargetBox& target,
+                               const Clutter& clutter)
     : camera_(camera) {
   camera.validate();
   target.validate();
-  scene_ = std::make_unique<Scene>(camera, target);
+  if (clutter.posters < 0 || clutter.posters > Clutter::kMost) {
+    throw std::invalid_argument("clutter is " + std::to_string(clutter.posters) +
+                                ", must be in 0.." + std::to_string(Clutter::kMost));
+  }
+  scene_ = std::make_unique<Scene>(camera, target, clutter);
 }
 CameraRenderer::~CameraRenderer() = default;
 CameraRenderer::CameraRenderer(CameraRenderer&&) noexcept = default;

@@ -27,8 +27,8 @@ std::int64_t stamp_of(std::uint64_t index, std::int64_t first_ms) {
 }  // namespace
 
 void CameraTiming::validate() const {
-  require_within("camera_latency", latency, 0.5);
-  require_within("camera_exposure", exposure, 0.016);
+  require_within("latency", latency, 0.5);
+  require_within("exposure", exposure, 0.016);
 }
 
 CameraSchedule::CameraSchedule(const CameraTiming& timing, std::int64_t first_ms)

@@ -130,7 +130,7 @@ inline sensor_msgs::CameraInfo to_camera_info(const PinholeCamera& camera) {
   message.height = static_cast<std::uint32_t>(camera.height);
   message.width = static_cast<std::uint32_t>(camera.width);
   message.distortion_model = "plumb_bob";
-  message.D.assign(5, 0.0);
+  message.D.assign(camera.distortion.begin(), camera.distortion.end());
   message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   message.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera's surroundings as plane facets of one grey level each.
+// The camera's surroundings as plane facets of one grey level each, and what is printed on them.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
+#include "grid_texture.hpp"
+#include "platform_sim/camera_renderer.hpp"
 #include "platform_sim/target_box.hpp"
 
 namespace platform_sim {
@@ -24,14 +26,31 @@ struct Facet {
 struct Body {
   std::vector<Facet> facets;
   Eigen::Hyperplane<double, 3> separator;
+  bool carries_tag = false;
 };
 
-// Deck, post, back wall, left, right, top and bottom wall of the box, in the platform frame.
-// The tag's place in the list is right after kBackWall.
-inline constexpr std::size_t kBackWall = 2;
-[[nodiscard]] std::vector<Body> platform_bodies(const TargetBox& target);
+// A texture on a surface, seen from where z > 0.
+struct Print {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of its centre: x right, y up, z out
+  double cell = 0.0;                                       // edge length of a cell, m
+  GridTexture texture;
 
-// Inside of a laboratory room around the world's origin, in world; painted in this order.
-[[nodiscard]] std::vector<Facet> room_facets();
+  // Lower left, lower right, upper right, upper left.
+  [[nodiscard]] std::array<Eigen::Vector3d, 4> corners() const;
+};
+
+// In the platform frame; everything else is above its plane z = 0.
+[[nodiscard]] Body platform_body();
+
+// Chassis of the cart, post, back wall, left, right, top and bottom wall of the box, in the frame
+// of what carries them.
+[[nodiscard]] std::vector<Body> target_bodies(const TargetBox& target);
+[[nodiscard]] Print tag_print(const TargetBox& target);
+
+// Inside of a laboratory room around the world's origin, in world; painted in this order. Its floor
+// is below the platform, or at z = 0 when the box is on a cart.
+[[nodiscard]] std::vector<Facet> room_facets(const TargetBox& target);
+// On the room's walls.
+[[nodiscard]] std::vector<Print> room_posters(const TargetBox& target, const Clutter& clutter);
 
 }  // namespace platform_sim

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "platform_sim/image_noise.hpp"
 #include "platform_sim/variation.hpp"
 
 namespace platform_sim {
@@ -34,12 +33,32 @@ std::string one_of(const std::string& name, const std::string& value,
   refuse(name, value, bound);
 }
 
+HandCameraConfig read_camera(prf_parameters::PrivateParameters& values) {
+  HandCameraConfig camera;
+  const std::vector<double> distortion = values.numbers("distortion", 5);
+  std::copy(distortion.begin(), distortion.end(), camera.optics.distortion.begin());
+  camera.timing.latency = values.number("latency");
+  camera.timing.exposure = values.number("exposure");
+  camera.noise = values.number("noise");
+  camera.light_change = values.number("light_change");
+  camera.light_period = values.number("light_period");
+  camera.clutter = values.integer("clutter");
+  values.refuse_unknown();
+  try {
+    camera.validate();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("camera: ") + error.what());
+  }
+  return camera;
+}
+
 }  // namespace
 
 SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   SimParameters result;
   result.world.motion = values.text("motion");
   result.world.body_motion = values.text("body_motion");
+  result.world.scenario = one_of("scenario", values.text("scenario"), World::scenario_names());
   result.world.gait = one_of("gait", values.text("gait"), World::gait_names());
   const int seed = values.integer("seed");
   require_within("seed", seed, 0, 2147483647);
@@ -68,12 +87,10 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   require_within("time_limit", result.time_limit, 0.01, 86400.0);
   result.end_delay = values.number("end_delay");
   require_within("end_delay", result.end_delay, 0.0, 60.0);
-  result.camera_noise = values.number("camera_noise");
-  require_within("camera_noise", result.camera_noise, 0.0, 100.0);
-  result.camera_noise *= variation.camera_noise_factor;
-  result.camera.latency = values.number("camera_latency");
-  result.camera.exposure = values.number("camera_exposure");
-  result.camera.validate();
+  prf_parameters::PrivateParameters camera = values.section("camera");
+  result.camera = read_camera(camera);
+  result.camera.seed = result.world.seed;
+  result.camera.noise *= variation.camera_noise_factor;
   values.refuse_unknown();
   result.world.validate();
   return result;

@@ -3,7 +3,7 @@
 
 #include <prf_parameters/private_parameters.hpp>
 
-#include "platform_sim/camera_schedule.hpp"
+#include "platform_sim/hand_camera.hpp"
 #include "platform_sim/world.hpp"
 
 namespace platform_sim {
@@ -12,8 +12,7 @@ namespace platform_sim {
 struct SimParameters {
   WorldConfig world;
   std::string variation;  // what the seed drew, in words
-  CameraTiming camera;
-  double camera_noise = 0.0;  // grey levels
+  HandCameraConfig camera;
   bool lockstep = true;
   bool paused = false;
   double answer_timeout = 0.0;    // s, wall time

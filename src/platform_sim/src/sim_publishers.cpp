@@ -55,7 +55,8 @@ void SimPublishers::publish_image(std::int64_t stamp_ms, const cv::Mat& image,
 
 void SimPublishers::publish_ground_truth(std::int64_t now_ms, World& world) {
   const std_msgs::Header header = header_at(now_ms, "world");
-  platform_.publish(to_odometry(header, "platform", world.platform()));
+  const std::string ground = world.target().on_cart ? "floor" : "platform";
+  platform_.publish(to_odometry(header, ground, world.platform()));
   base_.publish(to_odometry(header, "base_link", world.base()));
   tag_.publish(to_pose_stamped(header, world.tag().pose));
   camera_.publish(to_pose_stamped(header, world.frame(kOpticalFrame).pose));

@@ -56,9 +56,8 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
                        const SimParameters& params, const std::string& urdf)
     : params_(params),
       world_(make_world(urdf, params.world)),
-      renderer_(camera_, world_.target()),
-      noise_(params.camera_noise, params.world.seed),
-      schedule_(params.camera, kTickMs),
+      camera_(urdf, world_.target(), params.camera),
+      schedule_(params.camera.timing, kTickMs),
       publishers_(node),
       answers_(node, peer_of(params)),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
@@ -100,9 +99,10 @@ Simulation::Outcome Simulation::wait_for_start() {
   const Outcome outcome = params_.lockstep ? wait_for_connections() : Outcome::kEnded;
   if (!ros::ok()) return Outcome::kInterrupted;
   if (outcome == Outcome::kEnded) {
-    ROS_INFO("starting after %.1f s of waiting: motion %s, gait %s, seed %lu, lockstep %s",
-             seconds_since(begin), params_.world.motion.c_str(), params_.world.gait.c_str(),
-             params_.world.seed, params_.lockstep ? "on" : "off");
+    ROS_INFO(
+        "starting after %.1f s of waiting: scenario %s, motion %s, gait %s, seed %lu, lockstep %s",
+        seconds_since(begin), params_.world.scenario.c_str(), params_.world.motion.c_str(),
+        params_.world.gait.c_str(), params_.world.seed, params_.lockstep ? "on" : "off");
   }
   return outcome;
 }
@@ -138,8 +138,8 @@ void Simulation::simulate_tick() {
     world_.step();
     ++now_ms_;
     if (schedule_.captures_at(now_ms_)) {
-      schedule_.capture(now_ms_,
-                        {world_.frame("camera_optical_frame").pose, world_.platform().pose});
+      schedule_.capture(now_ms_, {world_.frame("camera_optical_frame").pose, world_.platform().pose,
+                                  world_.carrier().pose});
     }
   }
   physics_ += ros::WallTime::now() - begin;
@@ -153,7 +153,7 @@ void Simulation::publish_tick() {
     Image& image = images_.front();
     render(image);
     if (!image.pixels.empty()) {
-      publishers_.publish_image(image.frame.stamp_ms, image.pixels, camera_);
+      publishers_.publish_image(image.frame.stamp_ms, image.pixels, camera_.optics());
       answers_.lockstep().published_image(nanoseconds(image.frame.stamp_ms));
     }
     images_.pop_front();
@@ -166,8 +166,7 @@ void Simulation::publish_tick() {
 void Simulation::render(Image& image) {
   if (!image.pixels.empty() || !publishers_.image_is_wanted()) return;
   const ros::WallTime begin = ros::WallTime::now();
-  image.pixels = renderer_.render(image.frame.views);
-  noise_.add(image.pixels, image.frame.index);
+  image.pixels = camera_.image(image.frame);
   rendering_ += ros::WallTime::now() - begin;
 }
 

@@ -11,9 +11,8 @@
 #include <string>
 
 #include "answers.hpp"
-#include "platform_sim/camera_renderer.hpp"
 #include "platform_sim/camera_schedule.hpp"
-#include "platform_sim/image_noise.hpp"
+#include "platform_sim/hand_camera.hpp"
 #include "platform_sim/world.hpp"
 #include "sim_parameters.hpp"
 #include "sim_publishers.hpp"
@@ -51,9 +50,7 @@ class Simulation {
 
   SimParameters params_;
   World world_;
-  PinholeCamera camera_;
-  CameraRenderer renderer_;
-  ImageNoise noise_;
+  HandCamera camera_;
   CameraSchedule schedule_;
   std::deque<Image> images_;  // exposed, latency not yet over
   SimPublishers publishers_;

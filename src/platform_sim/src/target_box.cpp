@@ -20,11 +20,14 @@ Cuboid cuboid_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
   return cuboid;
 }
 
-const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);  // m
+const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);        // m
+const Eigen::Vector3d kChassisSize(0.45, 0.50, 0.12);  // m
+const Eigen::Vector3d kChassisCentre(0.86, 0.0, 0.14);
 
 }  // namespace
 
 Cuboid deck() { return cuboid_at({0.0, 0.0, -0.5 * kDeckSize.z()}, kDeckSize); }
+Cuboid cart_chassis() { return cuboid_at(kChassisCentre, kChassisSize); }
 
 void TargetBox::validate() const {
   if (!tag_position_in_platform.allFinite()) {
@@ -45,7 +48,8 @@ void TargetBox::validate() const {
   }
   const double box_bottom =
       tag_position_in_platform.z() - tag_above_box_centre - 0.5 * inner_width - wall_thickness;
-  require_positive("height of the target box over the platform", box_bottom);
+  const double foot = on_cart ? kChassisCentre.z() + 0.5 * kChassisSize.z() : 0.0;
+  require_positive("height of the target box over what carries it", box_bottom - foot);
 }
 
 Eigen::Isometry3d TargetBox::tag_in_platform() const {
@@ -86,11 +90,17 @@ std::vector<Cuboid> TargetBox::walls() const {
 Cuboid TargetBox::post() const {
   const Eigen::Isometry3d box = box_in_platform();
   const double centre = box.translation().z();
-  const double height = centre - 0.5 * inner_width - wall_thickness;
+  const double top = centre - 0.5 * inner_width - wall_thickness;
+  const double foot = on_cart ? kChassisCentre.z() + 0.5 * kChassisSize.z() : 0.0;
   const double x = 0.5 * inner_depth + wall_thickness - 0.5 * post_width;
-  Cuboid post = cuboid_at({x, 0.0, 0.5 * height - centre}, {post_width, post_width, height});
+  Cuboid post =
+      cuboid_at({x, 0.0, 0.5 * (foot + top) - centre}, {post_width, post_width, top - foot});
   post.pose_in_platform = box * post.pose_in_platform;
   return post;
+}
+
+std::vector<Cuboid> TargetBox::support() const {
+  return on_cart ? std::vector<Cuboid>{post(), cart_chassis()} : std::vector<Cuboid>{post()};
 }
 
 }  // namespace platform_sim

@@ -24,6 +24,10 @@ Vector3d on_circle(double radius, int segment, double z) {
 
 }  // namespace
 
+Triangle transformed(const Eigen::Isometry3d& pose, const Triangle& triangle) {
+  return {pose * triangle[0], pose * triangle[1], pose * triangle[2]};
+}
+
 Mesh box_mesh(const Eigen::Vector3d& size) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {

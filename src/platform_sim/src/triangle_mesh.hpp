@@ -11,6 +11,8 @@ namespace platform_sim {
 using Triangle = std::array<Eigen::Vector3d, 3>;  // counter-clockwise seen from outside
 using Mesh = std::vector<Triangle>;
 
+[[nodiscard]] Triangle transformed(const Eigen::Isometry3d& pose, const Triangle& triangle);
+
 [[nodiscard]] Mesh box_mesh(const Eigen::Vector3d& size);
 [[nodiscard]] Mesh cylinder_mesh(double radius, double length);  // along z, around the origin
 [[nodiscard]] Mesh sphere_mesh(double radius);

@@ -13,6 +13,7 @@
 #include "gaits.hpp"
 #include "leg_sensors.hpp"
 #include "pilot.hpp"
+#include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "stance.hpp"
 #include "stiff_controller.hpp"
@@ -30,6 +31,7 @@ constexpr double kFootDamping = 3e3;    // N s/m
 constexpr double kArmStiffness = 2e4;
 constexpr double kArmDamping = 2e2;
 
+const std::string kCart = "cart";
 const std::string kHandLink = "j2s7s300_end_effector";
 const std::string kArmLinkPrefix = "j2s7s300_link_";
 
@@ -64,6 +66,12 @@ std::vector<CuboidBody::Part> to_parts(const std::vector<Cuboid>& cuboids) {
   return parts;
 }
 
+TargetBox target_of(const WorldConfig& config) {
+  TargetBox target = config.target;
+  target.on_cart = config.scenario == kCart;
+  return target;
+}
+
 void require_finite(const std::string& name, double value) {
   if (!std::isfinite(value)) throw std::invalid_argument(name + " is not finite");
 }
@@ -85,6 +93,15 @@ void require_body_motion(const std::string& path) {
 }  // namespace
 
 void WorldConfig::validate() const {
+  const std::vector<std::string>& scenarios = World::scenario_names();
+  if (std::find(scenarios.begin(), scenarios.end(), scenario) == scenarios.end()) {
+    throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill or cart");
+  }
+  if (scenario == kCart && motion != "none") {
+    throw std::invalid_argument(
+        "motion is '" + motion +
+        "', must be none in the scenario cart, where nothing moves the floor");
+  }
   const PlatformMotion deck_motion(motion);
   if (!body_motion.empty()) require_body_motion(body_motion);
   require_gait(gait);
@@ -100,7 +117,7 @@ void WorldConfig::validate() const {
   for (int i = 0; i < arm_start.size(); ++i) {
     require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
   }
-  target.validate();
+  target_of(*this).validate();
 }
 
 class World::Impl {
@@ -111,7 +128,9 @@ class World::Impl {
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
   [[nodiscard]] JointStates joints() const;
-  [[nodiscard]] FrameState attached_to_deck(const Eigen::Isometry3d& pose_in_platform) const;
+  [[nodiscard]] FrameState platform() const { return motion_.deck(time()); }
+  [[nodiscard]] FrameState carrier() const { return push_ ? push_->cart(time()) : platform(); }
+  [[nodiscard]] FrameState tag() const;
 
   [[nodiscard]] double time() const { return static_cast<double>(steps_) * kTimeStep; }
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
@@ -132,11 +151,12 @@ class World::Impl {
   PlatformMotion motion_;
   std::optional<BodyMotion> body_motion_;
   Eigen::Isometry3d base_start_ = Eigen::Isometry3d::Identity();  // in platform
+  std::optional<CartPush> push_;
   TargetBox target_;
   BulletScene scene_{kTimeStep};
   CuboidBody deck_;
   CuboidBody box_;
-  CuboidBody post_;
+  CuboidBody support_;
   RobotModel robot_;
   std::vector<std::string> joint_names_;
   std::vector<const RobotJoint*> leg_joints_;
@@ -157,13 +177,13 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     : motion_(config.motion, config.seed),
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
-      target_(config.target),
+      target_(target_of(config)),
       deck_(scene_, "platform", to_parts({deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
       box_(scene_, "box", to_parts(target_.walls()), {kTarget, ~kSurroundings},
            motion_.deck(0.0).pose),
-      post_(scene_, "post", to_parts({target_.post()}), {kTarget, ~kSurroundings},
-            motion_.deck(0.0).pose),
+      support_(scene_, target_.on_cart ? kCart : "post", to_parts(target_.support()),
+               {kTarget, ~kSurroundings}, motion_.deck(0.0).pose),
       robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
              [&](const std::string& body) {
                RobotSurface surface = robot_surface(body, config.friction);
@@ -180,6 +200,7 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     arm_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
   }
+  if (target_.on_cart) push_.emplace(CartPush::draw(config.seed));
   place_robot(config);
   if (config.arm_mode == ArmMode::kServo) {
     auto servo = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
@@ -240,8 +261,8 @@ void World::Impl::step() {
   arm_->update(time());
   ++steps_;
   if (base_carrier_) base_carrier_->move_to(carried_base());
-  const Eigen::Isometry3d deck = motion_.deck(time()).pose;
-  for (CuboidBody* body : {&deck_, &box_, &post_}) body->move_to(deck);
+  deck_.move_to(platform().pose);
+  for (CuboidBody* body : {&box_, &support_}) body->move_to(carrier().pose);
   scene_.step();
   const std::vector<ContactPoint> points = scene_.contact_points();
   contacts.add_step(points);
@@ -324,11 +345,11 @@ JointStates World::Impl::joints() const {
   return states;
 }
 
-FrameState World::Impl::attached_to_deck(const Eigen::Isometry3d& pose_in_platform) const {
-  FrameState state = motion_.deck(time());
-  const Eigen::Vector3d lever = state.pose.linear() * pose_in_platform.translation();
-  state.linear += state.angular.cross(lever);
-  state.pose = state.pose * pose_in_platform;
+FrameState World::Impl::tag() const {
+  const Eigen::Isometry3d tag_in_carrier = target_.tag_in_platform();
+  FrameState state = carrier();
+  state.linear += state.angular.cross(state.pose.linear() * tag_in_carrier.translation());
+  state.pose = state.pose * tag_in_carrier;
   return state;
 }
 
@@ -342,6 +363,10 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 const std::vector<std::string>& World::gait_names() { return platform_sim::gait_names(); }
+const std::vector<std::string>& World::scenario_names() {
+  static const std::vector<std::string> names{"treadmill", kCart};
+  return names;
+}
 
 void World::step() { impl_->step(); }
 double World::time() const { return impl_->time(); }
@@ -349,10 +374,9 @@ const std::vector<std::string>& World::joint_names() const { return impl_->joint
 JointStates World::joints() const { return impl_->joints(); }
 FrameState World::frame(const std::string& link) const { return impl_->robot().frame(link); }
 FrameState World::base() const { return impl_->robot().frame("base_link"); }
-FrameState World::platform() const {
-  return impl_->attached_to_deck(Eigen::Isometry3d::Identity());
-}
-FrameState World::tag() const { return impl_->attached_to_deck(target().tag_in_platform()); }
+FrameState World::platform() const { return impl_->platform(); }
+FrameState World::carrier() const { return impl_->carrier(); }
+FrameState World::tag() const { return impl_->tag(); }
 const TargetBox& World::target() const { return impl_->target(); }
 std::vector<Contact> World::take_contacts() { return impl_->contacts.take(); }
 bool World::fallen() const { return impl_->fallen(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "z_buffer.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -42,8 +43,7 @@ void ZBuffer::draw(const Triangle& triangle, const Colour& colour) {
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d& point = triangle[static_cast<std::size_t>(i)];
     if (point.z() < kNearPlane) return;
-    corners.row(i) << camera_.fx * point.x() / point.z() + camera_.cx,
-        camera_.fy * point.y() / point.z() + camera_.cy, 1.0;
+    corners.row(i) << camera_.to_pixel(point.hnormalized()).transpose(), 1.0;
     inverse_depths[i] = 1.0 / point.z();
   }
   const double twice_area = corners.determinant();

@@ -4,14 +4,15 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
-#include "platform_sim/camera_renderer.hpp"
+#include "platform_sim/pinhole_camera.hpp"
 #include "triangle_mesh.hpp"
 
 namespace platform_sim {
 
 using Colour = Eigen::Vector3d;  // red, green, blue in 0..1
 
-// Image of triangles with hidden surfaces removed by depth.
+// Image of triangles with hidden surfaces removed by depth. A lens that distorts moves the corners
+// only: triangles must be small then.
 class ZBuffer {
  public:
   // The image is kOversampling times as fine as the camera's until finish().

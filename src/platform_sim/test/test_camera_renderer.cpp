@@ -62,7 +62,7 @@ std::optional<Detection> detect(const cv::Mat& image, const PinholeCamera& camer
 CameraView view_of_tag(const TargetBox& target, double distance, double azimuth, double elevation,
                        double roll, const Isometry3d& platform = Isometry3d::Identity()) {
   CameraView view;
-  view.platform = platform;
+  view.platform = view.carrier = platform;
   const Isometry3d around_tag = target.tag_in_platform() * AngleAxisd(azimuth, Vector3d::UnitY()) *
                                 AngleAxisd(elevation, Vector3d::UnitX());
   view.camera = platform * around_tag * Eigen::Translation3d(0.0, 0.0, distance) *
@@ -71,8 +71,7 @@ CameraView view_of_tag(const TargetBox& target, double distance, double azimuth,
 }
 
 Eigen::Vector2d project(const PinholeCamera& camera, const Vector3d& point) {
-  return {camera.fx * point.x() / point.z() + camera.cx,
-          camera.fy * point.y() / point.z() + camera.cy};
+  return camera.to_pixel(point.hnormalized());
 }
 
 // Errors of libapriltag over random views of the tag from one distance. Its own scatter, on an
@@ -124,29 +123,78 @@ TEST_P(TagAtDistance, IsRecoveredFromTheImageWithoutBias) {
 
 INSTANTIATE_TEST_SUITE_P(CameraRenderer, TagAtDistance, ::testing::Values(0.3, 0.45, 0.6, 0.8));
 
-TEST(CameraRenderer, AgreesWithTheMeanOfAFinerImage) {
-  constexpr int kFiner = 6;
+class Lens : public ::testing::TestWithParam<std::array<double, 5>> {};
+
+INSTANTIATE_TEST_SUITE_P(CameraRenderer, Lens,
+                         ::testing::Values(std::array<double, 5>{},
+                                           std::array<double, 5>{0.1, -0.2, 0.001, -0.002, 0.1},
+                                           std::array<double, 5>{-0.3, 0.1, 0.0, 0.0, 0.0}));
+
+TEST_P(Lens, AgreesWithTheMeanOfAFinerImage) {
+  constexpr int kFiner = 6, kLeft = 200, kTop = 120, kWide = 240;  // px: the tag and its border
   const TargetBox target;
-  const PinholeCamera camera;
-  PinholeCamera fine;
-  fine.width *= kFiner;
-  fine.height *= kFiner;
+  PinholeCamera camera;
+  camera.distortion = GetParam();
+  PinholeCamera fine = camera;
+  fine.width = kWide * kFiner;
+  fine.height = kWide * kFiner;
   fine.fx *= kFiner;
   fine.fy *= kFiner;
-  fine.cx = kFiner * (camera.cx + 0.5) - 0.5;
-  fine.cy = kFiner * (camera.cy + 0.5) - 0.5;
+  fine.cx = kFiner * (camera.cx + 0.5 - kLeft) - 0.5;
+  fine.cy = kFiner * (camera.cy + 0.5 - kTop) - 0.5;
   const CameraView view = view_of_tag(target, 0.30, 0.05, 0.02, 0.1);
   const cv::Mat image = CameraRenderer(camera, target).render(view);
   const cv::Mat finer = CameraRenderer(fine, target).render(view);
   int worst = 0;
-  for (int y = 120; y < 360; ++y) {  // the tag and its border
-    for (int x = 200; x < 440; ++x) {
+  for (int y = 0; y < kWide; ++y) {
+    for (int x = 0; x < kWide; ++x) {
       const cv::Rect pixel(x * kFiner, y * kFiner, kFiner, kFiner);
       const int mean = static_cast<int>(std::lround(cv::mean(finer(pixel))[0]));
-      worst = std::max(worst, std::abs(mean - image.at<unsigned char>(y, x)));
+      worst = std::max(worst, std::abs(mean - image.at<unsigned char>(kTop + y, kLeft + x)));
     }
   }
   EXPECT_LE(worst, 8);  // of 200 grey levels between ink and paper: 0.04 px
+}
+
+// Without the tag: the mean over random lines of sight of what an ideal camera sees there.
+TEST_P(Lens, ShowsWhatAnIdealCameraSeesAlongTheSameLines) {
+  TargetBox target;
+  target.on_cart = true;
+  PinholeCamera camera, ideal;
+  camera.distortion = GetParam();
+  ideal.width = ideal.height = 2000;
+  ideal.cx = ideal.cy = 1000.0;
+  const CameraView view = view_of_tag(target, 0.7, 0.3, 0.2, 0.4);
+  const cv::Mat image = CameraRenderer(camera, target, {60, 5}).render(view);
+  const cv::Mat reference = CameraRenderer(ideal, target, {60, 5}).render(view);
+  int compared = 0, different = 0;
+  for (int y = 0; y < camera.height; y += 3) {
+    for (int x = 0; x < camera.width; x += 3) {
+      const Eigen::Vector2d there = ideal.to_pixel(camera.to_normalised(Eigen::Vector2d(x, y)));
+      const auto u = static_cast<int>(std::lround(there.x()));
+      const auto v = static_cast<int>(std::lround(there.y()));
+      double darkest = 0.0, brightest = 0.0;
+      cv::minMaxLoc(reference(cv::Rect(u - 2, v - 2, 5, 5)), &darkest, &brightest);
+      const int grey = image.at<unsigned char>(y, x);
+      ++compared;
+      different += grey < darkest - 1 || grey > brightest + 1 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(different, 1e-3 * compared);  // corners finer than a pixel
+}
+
+TEST(CameraRenderer, FollowsTheCartButLeavesTheFloor) {
+  TargetBox target;
+  target.on_cart = true;
+  const CameraRenderer renderer(PinholeCamera{}, target);
+  CameraView view = view_of_tag(target, 0.6, 0, 0, 0);
+  const auto before = detect(renderer.render(view), PinholeCamera{}, 0.1);
+  view.carrier.translation() = Vector3d(0.0, 0.12, 0.0);
+  const auto after = detect(renderer.render(view), PinholeCamera{}, 0.1);
+  ASSERT_TRUE(before && after);
+  const Vector3d moved = view.camera.linear() *
+                         (after->tag_in_camera.translation() - before->tag_in_camera.translation());
+  EXPECT_LT((moved - Vector3d(0.0, 0.12, 0.0)).norm(), 1.5e-3);
 }
 
 TEST(CameraRenderer, CentresASymmetricViewOnThePrincipalPoint) {

@@ -181,14 +181,20 @@ class StartTest(unittest.TestCase):
 
 class ParameterTest(unittest.TestCase):
     CATALOGUE = [
-        ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"), ("body_motion", "absent.csv"),
-        ("body_motion", 0), ("gait", "gallop"), ("seed", -1), ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
+        ("scenario", "boat"), ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"),
+        ("body_motion", "absent.csv"), ("body_motion", 0), ("gait", "gallop"), ("seed", -1),
+        ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
         ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
         ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
         ("lockstep", "yes"), ("paused", 1), ("answer_timeout", 0.0),
         ("answer_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
-        ("time_limit", float("nan")), ("end_delay", -1.0), ("camera_noise", -4.0),
-        ("camera_latency", 0.6), ("camera_exposure", 0.1), ("no_such_parameter", 1),
+        ("time_limit", float("nan")), ("end_delay", -1.0), ("no_such_parameter", 1),
+    ]
+    CAMERA_CATALOGUE = [
+        ("noise", -4.0), ("latency", 0.6), ("exposure", 0.1), ("light_change", 1.0),
+        ("light_period", 0.0), ("clutter", 1000), ("clutter", 0.5), ("distortion", [0.0] * 4),
+        ("distortion", [-3.0, 0.0, 0.0, 0.0, 0.0]), ("distortion", [0.0, 0.0, float("nan"), 0.0, 0.0]),
+        ("no_such_parameter", 1),
     ]
 
     def test_refuses_bad_values_by_name(self):
@@ -207,6 +213,13 @@ class ParameterTest(unittest.TestCase):
         self.assertEqual(code, 2, output)
         self.assertIn("sway amplitude = 0.5 m, must be at most 0.1 m", output)
         self.assertIn("motion is", output)
+
+    def test_refuses_bad_values_of_the_camera_by_name(self):
+        for name, value in self.CAMERA_CATALOGUE:
+            code, output = Simulator(camera={**config()["camera"], name: value}).wait()
+            self.assertEqual(code, 2, f"{name} = {value}: {output}")
+            self.assertIn(name, output)
+            self.assertEqual(output.count("FATAL"), 1, output)
 
     def test_requires_every_parameter(self):
         for name in config():

@@ -61,6 +61,18 @@ TEST(TargetBox, PostCarriesItFromTheDeck) {
   for (double z = 0.0; z < 1.08; z += 0.005) EXPECT_TRUE(is_solid(box, {x, 0.0, z}));
 }
 
+TEST(TargetBox, StandsOnTheChassisOfACart) {
+  TargetBox box;
+  box.on_cart = true;
+  ASSERT_EQ(box.support().size(), 2u);
+  const Eigen::Isometry3d& post = box.post().pose_in_platform;
+  const double foot = post.translation().z() - 0.5 * box.post().size.z();
+  EXPECT_TRUE(contains(
+      cart_chassis(),
+      post.translation() - Eigen::Vector3d(0.0, 0.0, post.translation().z() - foot + 1e-9)));
+  EXPECT_GT(cart_chassis().pose_in_platform.translation().z() - 0.5 * cart_chassis().size.z(), 0.0);
+}
+
 TEST(TargetBox, RefusesImpossibleSizes) {
   const std::vector<std::function<void(TargetBox&)>> faults{
       [](TargetBox& box) { box.tag_size = 0.0; },

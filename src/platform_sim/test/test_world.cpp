@@ -73,6 +73,33 @@ TEST(World, TagIsFixedToThePlatform) {
   EXPECT_LT((moved - velocity).norm(), 1e-3);
 }
 
+TEST(World, HandPushesTheCartAsideAndTheRobotStays) {
+  WorldConfig config = folded_arm();
+  config.scenario = "cart";
+  config.seed = 4;
+  World world(robot_urdf(), config);
+  const Eigen::Vector3d base = world.base().pose.translation();
+  const Eigen::Vector3d tag = world.tag().pose.translation();
+  run(world, 2.0);
+  EXPECT_LT((world.tag().pose.translation() - tag).norm(), 1e-12);
+  run(world, 6.0);
+  const Eigen::Vector3d pushed = world.tag().pose.translation() - tag;
+  EXPECT_TRUE(pushed.norm() >= 0.10 && pushed.norm() <= 0.15) << pushed.norm();
+  EXPECT_EQ(pushed.z(), 0.0);
+  EXPECT_LT((world.base().pose.translation() - base).norm(), 2e-3);
+  EXPECT_TRUE(world.platform().pose.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(World, RefusesUnknownScenariosAndACartOnAMovingFloor) {
+  WorldConfig config = folded_arm();
+  config.scenario = "boat";
+  EXPECT_THROW(config.validate(), std::invalid_argument);
+  config.scenario = "cart";
+  EXPECT_NO_THROW(config.validate());
+  config.motion = "light";
+  EXPECT_THROW(config.validate(), std::invalid_argument);
+}
+
 TEST(World, StandsThroughTwentySecondsOfHeavyMotionWithoutSlipping) {
   WorldConfig config = folded_arm();
   config.motion = "heavy";

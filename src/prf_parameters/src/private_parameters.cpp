@@ -6,19 +6,12 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace prf_parameters {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-
-[[noreturn]] void refuse(const std::string& key, XmlRpcValue value, const std::string& must) {
-  std::ostringstream message;
-  message << key << " = ";
-  value.write(message);
-  message << ", must be " << must;
-  throw std::invalid_argument(message.str());
-}
 
 bool is_number(const XmlRpcValue& value) {
   return value.getType() == XmlRpcValue::TypeInt || value.getType() == XmlRpcValue::TypeDouble;
@@ -44,10 +37,24 @@ XmlRpcValue fetch(const ros::NodeHandle& handle) {
 PrivateParameters::PrivateParameters(const ros::NodeHandle& private_handle)
     : PrivateParameters(fetch(private_handle)) {}
 
-PrivateParameters::PrivateParameters(const XmlRpcValue& values) : values_(values) {}
+PrivateParameters::PrivateParameters(const XmlRpcValue& values) : PrivateParameters(values, "") {}
+
+PrivateParameters::PrivateParameters(const XmlRpcValue& values, std::string prefix)
+    : values_(values), prefix_(std::move(prefix)) {}
+
+void PrivateParameters::refuse(const std::string& key, XmlRpcValue value,
+                               const std::string& must) const {
+  std::ostringstream message;
+  message << prefix_ << key << " = ";
+  value.write(message);
+  message << ", must be " << must;
+  throw std::invalid_argument(message.str());
+}
 
 XmlRpcValue& PrivateParameters::at(const std::string& key) {
-  if (!values_.hasMember(key)) throw std::invalid_argument(key + " is missing, it is required");
+  if (!values_.hasMember(key)) {
+    throw std::invalid_argument(prefix_ + key + " is missing, it is required");
+  }
   read_.insert(key);
   return values_[key];
 }
@@ -106,6 +113,12 @@ std::vector<int> PrivateParameters::integers(const std::string& key) {
     result.push_back(static_cast<int>(value[i]));
   }
   return result;
+}
+
+PrivateParameters PrivateParameters::section(const std::string& key) {
+  const XmlRpcValue& value = at(key);
+  if (value.getType() != XmlRpcValue::TypeStruct) refuse(key, value, "a block of parameters");
+  return {value, prefix_ + key + "/"};
 }
 
 void PrivateParameters::refuse_unknown() const {

@@ -47,6 +47,20 @@ TEST(PrivateParameters, ReadsEachType) {
   EXPECT_NO_THROW(values.refuse_unknown());
 }
 
+TEST(PrivateParameters, ReadsABlockAsStrictly) {
+  XmlRpcValue all = sample();
+  all["camera"]["noise"] = 4.0;
+  all["camera"]["gain"] = 1.0;
+  PrivateParameters values(all);
+  PrivateParameters camera = values.section("camera");
+  EXPECT_EQ(camera.number("noise"), 4.0);
+  EXPECT_THAT(complaint([&] { (void)camera.text("noise"); }), HasSubstr("camera/noise = 4"));
+  EXPECT_THAT(complaint([&] { (void)camera.number("width"); }),
+              HasSubstr("camera/width is missing"));
+  EXPECT_THAT(complaint([&] { camera.refuse_unknown(); }), HasSubstr("camera/gain = 1"));
+  EXPECT_THAT(complaint([&] { (void)values.section("rate"); }), HasSubstr("a block"));
+}
+
 TEST(PrivateParameters, NamesTheMissingKey) {
   PrivateParameters values(sample());
   EXPECT_THAT(complaint([&] { (void)values.number("radius"); }), HasSubstr("radius is missing"));

@@ -5,6 +5,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <prf_msgs/TagDetectionArray.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/distortion_models.h>
 #include <std_msgs/Header.h>
 
 #include <algorithm>
@@ -16,17 +17,24 @@
 
 namespace prf_perception {
 
-// Throws std::invalid_argument when the lens distorts: the image has to be rectified first.
+// Throws std::invalid_argument for a lens of another model than plumb_bob.
 inline CameraIntrinsics to_intrinsics(const sensor_msgs::CameraInfo& info) {
-  if (std::any_of(info.D.begin(), info.D.end(), [](double d) { return d != 0.0; })) {
-    throw std::invalid_argument("camera_info D is not zero, must be the rectified image's");
+  CameraIntrinsics camera{info.K[0],
+                          info.K[4],
+                          info.K[2],
+                          info.K[5],
+                          static_cast<int>(info.width),
+                          static_cast<int>(info.height),
+                          {}};
+  if (std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0.0; })) return camera;
+  if (info.distortion_model != sensor_msgs::distortion_models::PLUMB_BOB ||
+      info.D.size() > camera.distortion.size()) {
+    throw std::invalid_argument("camera_info has distortion_model = '" + info.distortion_model +
+                                "' with " + std::to_string(info.D.size()) +
+                                " coefficients, must be plumb_bob with up to 5, or none");
   }
-  return {info.K[0],
-          info.K[4],
-          info.K[2],
-          info.K[5],
-          static_cast<int>(info.width),
-          static_cast<int>(info.height)};
+  std::copy(info.D.begin(), info.D.end(), camera.distortion.begin());
+  return camera;
 }
 
 inline prf_msgs::TagDetectionArray to_message(const std_msgs::Header& header,

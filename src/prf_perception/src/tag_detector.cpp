@@ -15,6 +15,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "prf_perception/lens.hpp"
 #include "require.hpp"
 
 namespace prf_perception {
@@ -131,8 +132,13 @@ class TagDetector::Impl {
       return std::nullopt;
     }
     const Corners corners = corners_of(raw);
+    const Corners ideal = ideal_corners(corners, camera);
+    for (std::size_t i = 0; i < 4; ++i) {
+      raw.p[i][0] = ideal[i].x() + kHalfPixel;
+      raw.p[i][1] = ideal[i].y() + kHalfPixel;
+    }
     const auto pose =
-        estimate_square_pose(corners, camera, params_.tag_size,
+        estimate_square_pose(ideal, camera, params_.tag_size,
                              initial_pose(raw, camera, params_.tag_size), params_.error_model);
     if (!pose) return std::nullopt;
     return TagDetection{raw.id, raw.hamming, static_cast<double>(raw.decision_margin), corners,

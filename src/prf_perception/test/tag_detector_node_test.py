@@ -12,6 +12,7 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from diagnostic_msgs.msg import DiagnosticArray
 from prf_msgs.msg import TagDetectionArray
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
@@ -27,13 +28,13 @@ TAGS = {
 }
 
 
-def frame(tag_id=None):
-    """A grey image with the tag's centre in the middle, head on."""
+def frame(tag_id=None, columns=(WIDTH // 2,)):
+    """A grey image with tags head on, their centres in the middle row."""
     pixels = np.full((HEIGHT, WIDTH), 110, np.uint8)
-    if tag_id is not None:
+    for column in columns if tag_id is not None else ():
         bits = np.array([[int(c) for c in row] for row in TAGS[tag_id].split()], np.uint8)
         tag = np.kron(bits, np.ones((MODULE_PX, MODULE_PX), np.uint8)) * 255
-        top, left = (HEIGHT - len(tag)) // 2, (WIDTH - len(tag)) // 2
+        top, left = (HEIGHT - len(tag)) // 2, column - len(tag) // 2
         pixels[top:top + len(tag), left:left + len(tag)] = tag
     return pixels
 
@@ -66,7 +67,8 @@ class TagDetectorNode(unittest.TestCase):
         self.answers.clear()
         self.transforms.clear()
 
-    def send(self, pixels, encoding="mono8", info=True, width=WIDTH, frame_id="camera"):
+    def send(self, pixels, encoding="mono8", info=True, width=WIDTH, frame_id="camera",
+             lens=("", [])):
         TagDetectorNode.stamp += 1 / 30
         stamp = rospy.Time.from_sec(self.stamp)
         image = Image(encoding=encoding, height=HEIGHT, width=pixels.shape[1],
@@ -74,7 +76,7 @@ class TagDetectorNode(unittest.TestCase):
         image.header.stamp, image.header.frame_id = stamp, frame_id
         self.images.publish(image)
         if info:
-            message = CameraInfo(width=width, height=HEIGHT)
+            message = CameraInfo(width=width, height=HEIGHT, distortion_model=lens[0], D=lens[1])
             message.header = image.header
             message.K = [FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1]
             self.infos.publish(message)
@@ -122,6 +124,36 @@ class TagDetectorNode(unittest.TestCase):
         self.send(frame(7))
         self.assertEqual([d.id for d in self.answer().detections], [7])
         self.assertEqual(self.transforms, [])
+
+    def test_two_tags_of_one_id_are_reported_and_one_gives_the_frame(self):
+        reports = []
+        subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, reports.append)
+        self.wait(subscriber.get_num_connections)
+        self.send(frame(0, columns=(160, 480)))
+        self.assertEqual([d.id for d in self.answer().detections], [0, 0])
+        self.wait(lambda: self.transforms)
+        self.assertEqual(len(self.transforms), 1)
+
+        def duplicates():
+            self.send(frame())
+            return any(int(entry.value) > 0 for report in reports for status in report.status
+                       for entry in status.values if entry.key == "tags with a duplicate id")
+        self.wait(duplicates)
+        subscriber.unregister()
+
+    def test_lens_distortion_is_taken_off(self):
+        self.send(frame(0), lens=("plumb_bob", [0.0] * 5))
+        self.send(frame(0), lens=("plumb_bob", [0.2, 0.0, 0.0, 0.0, 0.0]))
+        self.answer(2)
+        straight, bent = (a.detections[0].pose.pose.position.z for a in self.answers)
+        # Corners at r^2 = 2 (80 / 600)^2 look 0.7 % farther out than an ideal lens shows them.
+        self.assertAlmostEqual(bent / straight, 1.0 + 0.2 * 2 * (80 / FOCAL) ** 2, delta=2e-3)
+
+    def test_lenses_of_other_models_are_refused(self):
+        self.send(frame(0), lens=("equidistant", [0.1, 0.0, 0.0, 0.0]))
+        self.send(frame(0), lens=("plumb_bob", [0.1] * 8))
+        self.answer(2)
+        self.assertEqual([a.detections for a in self.answers], [[], []])
 
     def test_images_that_cannot_be_read_give_empty_arrays(self):
         self.send(frame(0), encoding="32FC1")

@@ -15,15 +15,16 @@ namespace platform_sim {
 /// What stands where at one instant. Poses in world.
 struct SceneState {
   Eigen::Isometry3d platform = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< root link of the robot
-  std::map<std::string, double> joints;                    ///< rad, by name
+  Eigen::Isometry3d carrier = Eigen::Isometry3d::Identity();  ///< of the box: platform or cart
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();     ///< root link of the robot
+  std::map<std::string, double> joints;                       ///< rad, by name
 };
 
 /// Optical frame of a camera at `eye` that looks at `target`, upright; not straight up or down.
 [[nodiscard]] Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
 /// Pictures of the whole scene for reports: the robot's visual shapes (boxes, cylinders, spheres),
-/// platform, box and tag, by z-buffer with flat shading and the shadow on the deck.
+/// treadmill or cart, box and tag, by z-buffer with flat shading and the shadow on the ground.
 class SceneRenderer {
  public:
   /// Throws std::invalid_argument for a robot description that cannot be read or has other shapes.

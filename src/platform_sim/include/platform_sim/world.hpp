@@ -21,6 +21,9 @@ enum class ArmMode {
 };
 
 struct WorldConfig {
+  /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
+  /// pushes aside (CartPush), and motion must be none.
+  std::string scenario = "treadmill";
   std::string motion = "none";   ///< preset or file, see find_profile()
   std::string body_motion;       ///< CSV file: carries base_link over the deck; empty: legs do
   std::string gait = "stand";    ///< one of gait_names()
@@ -46,9 +49,9 @@ struct JointStates {
   Eigen::VectorXd efforts;     ///< Nm, torque of the motor
 };
 
-/// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform that carries
-/// an open box. Deterministic: two worlds built alike and stepped alike are bitwise equal. At time
-/// 0 the robot has settled and the platform is still.
+/// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform before an
+/// open box, which the platform or a cart carries. Deterministic: two worlds built alike and
+/// stepped alike are bitwise equal. At time 0 the robot has settled and the platform is still.
 class World {
  public:
   /// Length of a physics step, s.
@@ -61,6 +64,7 @@ class World {
   World& operator=(World&&) noexcept;
 
   [[nodiscard]] static const std::vector<std::string>& gait_names();
+  [[nodiscard]] static const std::vector<std::string>& scenario_names();
 
   /// Advances by kTimeStep.
   void step();
@@ -73,6 +77,7 @@ class World {
   [[nodiscard]] FrameState frame(const std::string& link) const;
   [[nodiscard]] FrameState base() const;  ///< frame("base_link")
   [[nodiscard]] FrameState platform() const;
+  [[nodiscard]] FrameState carrier() const;  ///< of the box: platform() or the cart
   [[nodiscard]] FrameState tag() const;
   [[nodiscard]] const TargetBox& target() const;
 

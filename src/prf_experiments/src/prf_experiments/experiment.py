@@ -87,7 +87,7 @@ def parse(words):
         if len(options.values.get("results", [""])) > 1:
             raise args.ArgumentError("results:= takes one folder")
     else:
-        options.values = args.parse(named, trial_arguments.TRIAL)
+        options.values = trial_arguments.complete(args.parse(named, trial_arguments.TRIAL), named)
     return options, named
 
 

@@ -136,7 +136,7 @@ def main(words):
     if len(words) > 1 and words[0] == "--into":
         folder, words = os.path.abspath(words[1]), words[2:]
     try:
-        values = args.parse(words, valid)
+        values = trial_arguments.complete(args.parse(words, valid), words)
     except args.ArgumentError as error:
         print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
         return EXIT_USAGE

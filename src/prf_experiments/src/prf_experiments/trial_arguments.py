@@ -2,8 +2,8 @@
 """The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
 import os
 
-from prf_experiments.arguments import (Argument, boolean, choice, choice_or_file, integer, number,
-                                       path, show)
+from prf_experiments.arguments import (Argument, ArgumentError, boolean, choice, choice_or_file,
+                                       integer, number, path, show)
 
 PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceleration",
               "oscillation", "ekf", "autoregressive", "sines", "hold"]
@@ -12,7 +12,7 @@ PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceler
 NAMED = {
     "motion": Argument("light", **choice_or_file("none", "light", "heavy", "as_printed",
                                                  endings=(".yaml", ".csv")),
-                       meaning="how the platform moves"),
+                       meaning="how the platform moves; with scenario:=cart none"),
     "gait": Argument("stand", **choice("stand", "stand_stiff", "step"), meaning="what the legs do"),
     "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
                         meaning="how the skill is adapted"),
@@ -23,6 +23,8 @@ NAMED = {
 # Given to trial.launch, and named where they are not the default.
 LAUNCHED = {
     **NAMED,
+    "scenario": Argument("treadmill", **choice("treadmill", "cart"),
+                         meaning="cart: the box is on a cart that a hand pushes aside"),
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
@@ -42,6 +44,16 @@ TRIAL = {
     **LAUNCHED, **RESULTS,
     "keep_bag": Argument(True, **boolean(), meaning="false: delete the bag at the end"),
 }
+
+
+def complete(values, words):
+    """The floor under the cart does not move: `values` with motion none unless `words` say it."""
+    if values["scenario"] != "cart":
+        return values
+    asked = [word for word in words if word.startswith("motion:=")]
+    if asked and values["motion"] != "none":
+        raise ArgumentError(f"{asked[-1]} does not go with scenario:=cart, valid: motion:=none")
+    return {**values, "motion": "none"}
 
 
 def words(values):

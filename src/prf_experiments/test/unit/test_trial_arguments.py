@@ -12,6 +12,9 @@ class TrialArguments(unittest.TestCase):
     def values(self, *words):
         return args.parse(words, trial_arguments.TRIAL)
 
+    def complete(self, *words):
+        return trial_arguments.complete(self.values(*words), words)
+
     def test_a_name_says_what_makes_a_trial_and_nothing_else(self):
         self.assertEqual(
             trial_arguments.name(self.values("motion:=heavy", "seed:=7", "results:=/elsewhere")),
@@ -32,6 +35,13 @@ class TrialArguments(unittest.TestCase):
         for word in ("motion:=wild", "motion:=absent.yaml", "body_motion:=absent.csv"):
             with self.assertRaises(args.ArgumentError):
                 self.values(word)
+
+    def test_the_floor_under_the_cart_does_not_move(self):
+        self.assertEqual(self.complete("scenario:=cart")["motion"], "none")
+        self.assertEqual(self.complete("scenario:=cart", "motion:=none")["motion"], "none")
+        self.assertEqual(self.complete()["motion"], "light")
+        with self.assertRaises(args.ArgumentError):
+            self.complete("scenario:=cart", "motion:=light")
 
     def test_lists_are_parsed_value_by_value(self):
         self.assertEqual(args.parse_lists(["seed:=3,5", "framework:=false"], trial_arguments.TRIAL),

@@ -30,15 +30,22 @@ class PrivateParameters {
   [[nodiscard]] std::vector<double> numbers(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key, int count);  // exactly so many
   [[nodiscard]] std::vector<int> integers(const std::string& key);
+  // A block of parameters; complaints call them block/key. It refuses its own unknown keys.
+  [[nodiscard]] PrivateParameters section(const std::string& key);
 
   // To be called once everything has been read. Keys that begin with "__" are ROS's own.
   void refuse_unknown() const;
 
  private:
+  PrivateParameters(const XmlRpc::XmlRpcValue& values, std::string prefix);
+
   XmlRpc::XmlRpcValue& at(const std::string& key);
+  [[noreturn]] void refuse(const std::string& key, XmlRpc::XmlRpcValue value,
+                           const std::string& must) const;
   XmlRpc::XmlRpcValue& list(const std::string& key, const std::string& must);
 
   XmlRpc::XmlRpcValue values_;
+  std::string prefix_;  // of the keys, in complaints
   std::set<std::string> read_;
 };
 

@@ -3,9 +3,11 @@
 //
 // A point (X, Y, Z) of the optical frame (x right, y down, z forward) is seen at
 //   u = fx X / Z + cx,  v = fy Y / Z + cy,
-// in pixels with (0, 0) at the CENTRE of the first pixel, the convention of camera_info and OpenCV.
+// in pixels with (0, 0) at the CENTRE of the first pixel, the convention of camera_info and OpenCV,
+// unless the lens distorts (lens.hpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace prf_perception {
@@ -17,7 +19,10 @@ struct CameraIntrinsics {
   double cy = 0.0;
   int width = 0;
   int height = 0;
+  std::array<double, 5> distortion{};  // k1, k2, p1, p2, k3
 };
+
+[[nodiscard]] bool distorts(const CameraIntrinsics& camera);
 
 // Throws std::invalid_argument naming the value unless sizes and focal lengths are positive and
 // everything is finite.

@@ -31,7 +31,7 @@ struct TagDetection {
   int id = 0;
   int hamming = 0;
   double decision_margin = 0.0;  // grey levels
-  Corners corners{};             // px, (0, 0) is the centre of the first pixel
+  Corners corners{};             // px in the image, (0, 0) is the centre of the first pixel
   SquarePose pose;
 };
 
@@ -42,6 +42,7 @@ class TagDetector {
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
 
+  // The image is as the lens shows it, nothing need be rectified.
   // Throws std::invalid_argument when the image's size is not the camera's or below 32 px.
   [[nodiscard]] std::vector<TagDetection> detect(const ImageView& image,
                                                  const CameraIntrinsics& camera);
