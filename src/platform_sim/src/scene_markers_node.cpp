@@ -57,8 +57,7 @@ class SceneMarkers {
     if (stamp < last_) known_ = false;  // a new run
     last_ = stamp;
     // What carries the box starts where the platform is.
-    if (!known_)
-      target_.tag_position_in_platform = (tick.platform->inverse() * *tick.tag).translation();
+    if (!known_) target_.place_tag(tick.platform->inverse() * *tick.tag);
     known_ = true;
     if (count_++ % kEvery != 0) return;
     const Eigen::Isometry3d to_base = tick.base->inverse();

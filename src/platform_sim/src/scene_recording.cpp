@@ -67,8 +67,7 @@ class Reader {
     for (auto& [stamp, tick] : ticks_) {
       if (tick.parts != kAll) continue;
       if (recording.states.empty()) {
-        recording.target.tag_position_in_platform =
-            (tick.state.platform.inverse() * tick.tag).translation();
+        recording.target.place_tag(tick.state.platform.inverse() * tick.tag);
       }
       tick.state.carrier = tick.tag * recording.target.tag_in_platform().inverse();
       recording.states[stamp] = tick.state;

@@ -62,6 +62,12 @@ Eigen::Isometry3d TargetBox::tag_in_platform() const {
   return pose;
 }
 
+void TargetBox::place_tag(const Eigen::Isometry3d& tag_in_platform) {
+  const Eigen::Vector3d into_tag = -tag_in_platform.linear().col(2);
+  tag_position_in_platform = tag_in_platform.translation();
+  yaw = std::atan2(into_tag.y(), into_tag.x());
+}
+
 Eigen::Isometry3d TargetBox::box_in_platform() const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();

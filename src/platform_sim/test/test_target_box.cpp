@@ -61,6 +61,15 @@ TEST(TargetBox, PostCarriesItFromTheDeck) {
   for (double z = 0.0; z < 1.08; z += 0.005) EXPECT_TRUE(is_solid(box, {x, 0.0, z}));
 }
 
+TEST(TargetBox, IsPlacedByItsTag) {
+  TargetBox there;
+  there.tag_position_in_platform = Eigen::Vector3d(0.8, 0.1, 1.2);
+  there.yaw = -0.3;
+  TargetBox box;
+  box.place_tag(there.tag_in_platform());
+  EXPECT_TRUE(box.tag_in_platform().isApprox(there.tag_in_platform(), 1e-12));
+}
+
 TEST(TargetBox, StandsOnTheChassisOfACart) {
   TargetBox box;
   box.on_cart = true;

@@ -37,6 +37,8 @@ struct TargetBox {
   void validate() const;
 
   [[nodiscard]] Eigen::Isometry3d tag_in_platform() const;
+  /// Moves and turns the box so that its tag, upright, is there.
+  void place_tag(const Eigen::Isometry3d& tag_in_platform);
   /// Centre of the hollow of the box, axes parallel to the platform's.
   [[nodiscard]] Eigen::Isometry3d box_in_platform() const;
   /// Back, left, right, top, bottom.
