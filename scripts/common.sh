@@ -72,9 +72,9 @@ set_up() {
 
 # build_workspace [target]: configures once, then builds what changed.
 build_workspace() {
-  export PATH=/usr/lib/ccache:$PATH
   if [ ! -f "$build_dir/build.ninja" ]; then
-    quietly "configuring" cmake.log cmake -S "$repo" -B "$build_dir" -G Ninja
+    quietly "configuring" cmake.log cmake -S "$repo" -B "$build_dir" -G Ninja \
+      -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
   fi
   quietly "building${1:+ $1}" build.log cmake --build "$build_dir" ${1:+--target "$1"}
 }
