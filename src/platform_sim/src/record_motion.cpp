@@ -97,15 +97,22 @@ std::string row_of(const World& world) {
   return row + "\n";
 }
 
+// Not before the first sample: until then an argument may be refused.
+void open(const std::string& path, std::ofstream& file) {
+  file.open(path);
+  if (!file) throw std::invalid_argument("--out = " + path + " cannot be written");
+}
+
 // Returns whether the robot is still on its feet.
 bool record(const Recording& recording) {
-  std::ofstream file(recording.out);
-  if (!file) throw std::invalid_argument("--out = " + recording.out + " cannot be written");
   World world(platform_sim::installed_robot_description(), recording.config);
+  std::ofstream file;
   std::string rows;
   const auto begin = std::chrono::steady_clock::now();
-  platform_sim::run_headless(world, recording.duration, recording.rate,
-                             [&](const World& now) { rows += row_of(now); });
+  platform_sim::run_headless(world, recording.duration, recording.rate, [&](const World& now) {
+    if (!file.is_open()) open(recording.out, file);
+    rows += row_of(now);
+  });
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   file << header_of(recording, world) << rows;
   file.close();

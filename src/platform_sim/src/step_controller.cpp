@@ -10,40 +10,49 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 // Fit to motion capture of a Vision 60 with Jaco arm that steps on a treadmill, at rest and in
-// light and heavy motion (see README): cadence, lift, horizontal springs, lag, heading, held point
-// and placing errors.
+// light and heavy motion (see README): cadence, lift, springs, lag, heading, held point and placing
+// errors.
 constexpr double kSlowCadence = 1.25;     // 1/s, at rest
 constexpr double kFastCadence = 1.37;     // 1/s
 constexpr double kQuietSpeed = 0.03;      // m/s, of the body over the deck
 constexpr double kCadencePerSpeed = 2.5;  // 1/m
 constexpr double kDuty = 0.51;            // part of the cycle that a foot is down
 constexpr double kLift = 0.14;            // m
-constexpr double kFeetAhead =
-    0.015;  // m, mean of the toes ahead of base_link; measured standing: 0.027
 const VirtualSprings kSprings{
-    {8.0, 2.8, 100.0}, {2.0, 2.8, 20.0}, {1000.0, 2000.0, 500.0}, {100.0, 200.0, 60.0}};
+    {8.0, 4.0, 100.0}, {2.0, 3.0, 20.0}, {700.0, 1400.0, 500.0}, {70.0, 140.0, 60.0}};
 const AttitudeReference::Gains kAttitude{1.0, 0.05, 0.25, 0.55};
 constexpr double kHeldPoint = 0.1;  // m ahead of base_link: what is held at the standing height
 // Standard deviation of where a pair of feet lands: ahead, m, to the left, m, and turned, rad; per
 // rad/s of the body's roll and pitch, to which what there is at rest is added.
 const Eigen::Vector3d kPlacing(0.04, 0.010, 0.045);
-constexpr double kRestlessness = 0.03;  // rad/s
+constexpr double kRestlessness = 0.025;  // rad/s
 
 constexpr double kSmoothing = 2.0;   // s, of speed and turning
 constexpr double kBalance = 0.05;    // s2, standing height / g
+constexpr double kLearning = 0.05;   // 1/s, of where the body balances
 constexpr double kSwing = 2000.0;    // N/m
 constexpr double kSwingRate = 60.0;  // N s/m
 constexpr double kPressDown = 0.01;  // m, aim of a foot below the ground so that it lands
+
+// When the feet are evenly about the centre of mass, which is not under the base's origin, the legs
+// have taken it along by a tenth of their way: they are a fifth of the weight.
+BodyModel over_balanced_feet(BodyModel body) {
+  constexpr double kTakenAlong = 0.1;
+  body.centre_of_mass_in_base.head<2>() *= 1.0 + kTakenAlong;
+  return body;
+}
 
 }  // namespace
 
 StepController::StepController(const Stance& stance, const BodyModel& body, double friction,
                                std::uint64_t seed)
     : stance_(stance),
-      model_(stance, body, friction, kSprings),
+      model_(stance, over_balanced_feet(body), friction, kSprings),
       attitude_(kAttitude),
       generator_(seed),
+      cycles_(0.5 * static_cast<double>(generator_() % 2)),
       cadence_(kSlowCadence),
+      balance_(over_balanced_feet(body).centre_of_mass_in_base.head<2>()),
       lift_off_(stance.toes_in_base) {}
 
 LegVector StepController::torques(const LegObservation& observed) {
@@ -93,7 +102,12 @@ double StepController::phase_of(std::size_t leg) const {
 void StepController::estimate(const LegObservation& observation, const Feet& feet,
                               double duration) {
   velocity_ = body_velocity_over_feet(feet);
-  way_ += duration * (velocity_ - observation.stick).head<2>();
+  if (observation.time < 0.0) {
+    way_ = body_over_feet(feet).head<2>() + balance_;
+  } else {
+    way_ += duration * (velocity_ - observation.stick).head<2>();
+    balance_ += duration * kLearning * way_;
+  }
   yaw_ += duration * observation.stick.z();
   slope_.update(feet, duration);
   attitude_.update(slope_.slope(), way_.y(), duration);
@@ -110,21 +124,26 @@ BodyError StepController::body_error(const LegObservation& observation, const Fe
   BodyError error;
   error.way << way_, height + stance_.toes_in_base[0].z();
   error.velocity = velocity_;
+  if (observation.time < 0.0) {
+    constexpr double kFaster = 2.0;  // so that the body is at rest when the trot begins
+    error.way.head<2>() *= kFaster * kFaster;
+    error.velocity.head<2>() *= kFaster;
+  }
   error.turn = rotation_vector(observation.attitude, attitude_.attitude(yaw_));
   error.angular_velocity = observation.attitude * observation.angular_velocity;
   return error;
 }
 
-// Under its hip, a little ahead, further by half the way of a stance, and beyond that so that
-// gravity, which gives g / h of acceleration per way off balance, gives what the springs ask for;
-// on the deck's slope.
+// Where the feet balance the body at rest, further by half the way of a stance, and beyond that so
+// that gravity, which gives g / h of acceleration per way off balance, gives what the springs ask
+// for; on the deck's slope.
 Eigen::Vector3d StepController::landing_place(std::size_t leg) const {
   const Eigen::Vector3d way(way_.x(), way_.y(), 0.0);
   const Eigen::Vector3d balance =
       kSprings.way.cwiseProduct(way) + kSprings.way_rate.cwiseProduct(velocity_);
   const Eigen::AngleAxisd heading(yaw_ + placing_error_.z(), Eigen::Vector3d::UnitZ());
   Eigen::Vector3d place =
-      heading * (stance_.toes_in_base[leg] + kFeetAhead * Eigen::Vector3d::UnitX());
+      heading * (stance_.toes_in_base[leg] + Eigen::Vector3d(balance_.x(), balance_.y(), 0.0));
   place.head<2>() += placing_error_.head<2>() + 0.5 * kDuty / cadence_ * velocity_.head<2>() +
                      kBalance * balance.head<2>();
   place.z() += slope_.slope().dot(Eigen::Vector2d(-place.x(), place.y())) - kPressDown;

@@ -15,10 +15,11 @@ namespace platform_sim {
 /// the way over the deck is summed from the legs' motion, the operator's stick moves the aim, and
 /// so does every landing, because no foot comes down just where it should. Feet in the air are
 /// drawn by springs along an arc to where they balance the body's velocity (Raibert 1986). The
-/// trot is faster when the body is pushed about. Before time 0 all feet stay down.
+/// trot is faster when the body is pushed about. Before time 0 all feet stay down and the body
+/// moves over them until they balance it; while it trots the controller learns where they do.
 class StepController : public LegController {
  public:
-  /// `seed`: of the errors in placing the feet.
+  /// `seed`: of the errors in placing the feet, and of which pair lifts first.
   StepController(const Stance& stance, const BodyModel& body, double friction, std::uint64_t seed);
 
   [[nodiscard]] LegVector torques(const LegObservation& observed) override;
@@ -38,12 +39,13 @@ class StepController : public LegController {
   AttitudeReference attitude_;
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
-  double cycles_ = 0.0;                                 // since time 0
+  double cycles_;                                       // since time 0
   double cadence_;                                      // 1/s
   double speed_ = 0.0;                                  // m/s, of the body over the deck, smoothed
   double turning_ = 0.0;                                // rad/s, roll and pitch, smoothed
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // m/s, of the body over the deck
   Eigen::Vector2d way_ = Eigen::Vector2d::Zero();       // m, from the aim to the body
+  Eigen::Vector2d balance_;                             // m, mean of the feet at rest, in base_link
   double yaw_ = 0.0;                                    // rad, aim
   Eigen::Vector3d placing_error_ = Eigen::Vector3d::Zero();  // m, m, rad; pair in the air
   std::array<Eigen::Vector3d, 4> lift_off_;

@@ -103,6 +103,20 @@ TEST(Legs, TrotAtTheMeasuredCadenceWithDiagonalPairs) {
   EXPECT_GT(diagonal, 0.9 * lifted);
 }
 
+TEST(Legs, StartToTrotWithoutThrowingTheBodyAside) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    WorldConfig config = ready_robot("none", "step");
+    config.seed = seed;
+    World world(robot_urdf(), config);
+    double farthest = 0.0;
+    const MotionPiece piece = observe(world, 0.0, 3.0);
+    for (const MotionSample& sample : piece) {
+      farthest = std::max(farthest, (sample.body - piece.front().body).norm());
+    }
+    EXPECT_LT(farthest, 0.020) << "seed " << seed;
+  }
+}
+
 // A hand that accelerates by 1 m/s2 may not move the body so that the target moves as much again;
 // seen in the difference to the same run with the arm at rest.
 TEST(Legs, StepWithoutBeingExcitedByTheArm) {
