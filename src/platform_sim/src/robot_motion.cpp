@@ -162,9 +162,10 @@ Eigen::Matrix3Xd tag_lines(const std::vector<MotionPiece>& pieces,
   return result;
 }
 
-void MotionObserver::step(World& world) {
+void MotionObserver::step(World& world, const std::function<void(World&)>& before) {
   const auto steps = std::lround(kSamplePeriod / World::kTimeStep);
   for (long i = 0; i < steps; ++i) {
+    if (before) before(world);
     world.step();
     const FrameState platform = world.platform();
     for (const Contact& contact : world.take_contacts()) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "gravity.hpp"
 #include "motion_reference.hpp"
 #include "options.hpp"
 #include "platform_sim/platform_motion.hpp"
@@ -21,9 +22,12 @@ constexpr char kUsage[] =
     "usage: validate_motion [--motion M] [--gait G] [--seeds 3] [--duration 40] [--arm still]\n"
     "                       [--json FILE]      figures beside those of the real robot\n"
     "       validate_motion --falls 20 [--motion heavy] [--gait step] [--duration 60]\n"
-    "                       [--arm still]      how many of so many seeds fall\n"
+    "                       [--arm still] [--push 0] [--payload 0]   how many of so many seeds "
+    "fall\n"
     "       validate_motion --mocap DIR [--json FILE]   figures of CSV files of captures\n"
-    "  --arm: still, or moving (its joints swing as fast as they may)\n";
+    "  --arm: still, or moving (its joints swing as fast as they may)\n"
+    "  --push: N, for 0.2 s every 3 s, at hand and body in turn, to all sides\n"
+    "  --payload: kg, of which the hand carries the weight\n";
 constexpr double kWarmUp = 6.0;  // s
 constexpr double kTolerance = 0.3;
 constexpr double kPi = 3.14159265358979323846;
@@ -35,6 +39,8 @@ struct Study {
   double duration = 40.0;  // s
   bool arm_moves = false;
   bool falls = false;
+  double push = 0.0;     // N
+  double payload = 0.0;  // kg
   std::string captures, json;
 };
 
@@ -75,13 +81,24 @@ void swing_arm(const ArmVector& start, World& world) {
   world.command_arm(positions, velocities);
 }
 
+void disturb(const Study& study, World& world) {
+  constexpr double kPeriod = 3.0, kLength = 0.2;  // s
+  constexpr double kTurn = 2.4;                   // rad, from push to push
+  const char* const hand = "j2s7s300_end_effector";
+  if (study.payload > 0.0) world.push(hand, {0.0, 0.0, -kGravity * study.payload});
+  const double pushes = std::floor(world.time() / kPeriod);
+  if (study.push == 0.0 || pushes < 1.0 || world.time() - kPeriod * pushes > kLength) return;
+  const Eigen::Vector3d side(std::cos(kTurn * pushes), std::sin(kTurn * pushes), 0.0);
+  world.push(std::fmod(pushes, 2.0) == 0.0 ? hand : "base_link", study.push * side);
+}
+
 // Returns whether the robot is still on its feet at the end.
 bool observe(const Study& study, const ArmVector& start, double duration, World& world,
              MotionObserver& observer) {
   const double end = world.time() + duration;
   while (world.time() < end - 0.5 * World::kTimeStep && !world.fallen()) {
     if (study.arm_moves) swing_arm(start, world);
-    observer.step(world);
+    observer.step(world, [&](World& now) { disturb(study, now); });
   }
   return !world.fallen();
 }
@@ -245,6 +262,17 @@ Study read_options(int argc, char** argv) {
   const bool all = !study.falls && !options.has("motion") && !options.has("gait");
   const std::string motion = options.text("motion", study.falls ? "heavy" : "light");
   const std::string gait = options.text("gait", study.falls ? "step" : "stand");
+  study.push = options.number("push", 0.0);
+  study.payload = options.number("payload", 0.0);
+  if (!study.falls && (study.push != 0.0 || study.payload != 0.0)) {
+    throw std::invalid_argument("--push and --payload go with --falls");
+  }
+  if (!(study.push >= 0.0 && study.push <= 1000.0)) {
+    throw std::invalid_argument("--push must be from 0 to 1000 N");
+  }
+  if (!(study.payload >= 0.0 && study.payload <= 10.0)) {
+    throw std::invalid_argument("--payload must be from 0 to 10 kg");
+  }
   study.captures = options.text("mocap", "");
   study.json = options.text("json", "");
   options.refuse_unknown();

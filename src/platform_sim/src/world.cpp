@@ -127,6 +127,7 @@ class World::Impl {
   void step();
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+  void push(const std::string& link, const Eigen::Vector3d& force);
   [[nodiscard]] JointStates joints() const;
   [[nodiscard]] FrameState platform() const { return motion_.deck(time()); }
   [[nodiscard]] FrameState carrier() const { return push_ ? push_->cart(time()) : platform(); }
@@ -327,6 +328,11 @@ void World::Impl::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::V
   compliant_->apply_hand_wrench(force, torque);
 }
 
+void World::Impl::push(const std::string& link, const Eigen::Vector3d& force) {
+  if (!force.allFinite()) throw std::invalid_argument("push: force must be finite");
+  robot_.apply_wrench(link, force, Eigen::Vector3d::Zero());
+}
+
 JointStates World::Impl::joints() const {
   constexpr Eigen::Index kLegJoints = 12;
   constexpr Eigen::Index kAllJoints = 19;
@@ -387,6 +393,10 @@ void World::command_arm(const ArmVector& positions, const ArmVector& velocities)
 
 void World::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
   impl_->apply_hand_wrench(force, torque);
+}
+
+void World::push(const std::string& link, const Eigen::Vector3d& force) {
+  impl_->push(link, force);
 }
 
 }  // namespace platform_sim

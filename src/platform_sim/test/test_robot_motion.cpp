@@ -117,6 +117,24 @@ TEST(Legs, StartToTrotWithoutThrowingTheBodyAside) {
   }
 }
 
+TEST(Legs, TrotOnWhenTheRobotIsPushedOrCarriesAPayload) {
+  World world(robot_urdf(), ready_robot("light", "step"));
+  MotionObserver observer;
+  const auto disturb = [](World& now) {
+    now.push("j2s7s300_end_effector", {0.0, 0.0, -15.0});
+    const double since = std::fmod(now.time(), 2.0);
+    if (now.time() < 2.0 || since > 0.2) return;
+    now.push(now.time() < 4.0 ? "j2s7s300_end_effector" : "base_link", {0.0, -80.0, 0.0});
+  };
+  while (world.time() < 7.0) observer.step(world, disturb);
+  EXPECT_FALSE(world.fallen());
+  double farthest = 0.0;
+  for (const MotionSample& sample : observer.samples()) {
+    farthest = std::max(farthest, std::abs(sample.body.y()));
+  }
+  EXPECT_GT(farthest, 0.05);
+}
+
 // A hand that accelerates by 1 m/s2 may not move the body so that the target moves as much again;
 // seen in the difference to the same run with the arm at rest.
 TEST(Legs, StepWithoutBeingExcitedByTheArm) {

@@ -63,7 +63,7 @@ TEST(World, TagIsFixedToThePlatform) {
   WorldConfig config = folded_arm();
   config.motion = "heavy";
   World world(robot_urdf(), config);
-  run(world, 4.0);
+  run(world, 1.0);
   const Eigen::Isometry3d expected = world.platform().pose * world.target().tag_in_platform();
   EXPECT_TRUE(world.tag().pose.isApprox(expected, 1e-12));
   const Eigen::Vector3d before = world.tag().pose.translation();
@@ -100,13 +100,13 @@ TEST(World, RefusesUnknownScenariosAndACartOnAMovingFloor) {
   EXPECT_THROW(config.validate(), std::invalid_argument);
 }
 
-TEST(World, StandsThroughTwentySecondsOfHeavyMotionWithoutSlipping) {
+TEST(World, StandsThroughThreePeriodsOfHeavyMotionWithoutSlipping) {
   WorldConfig config = folded_arm();
   config.motion = "heavy";
   World world(robot_urdf(), config);
   std::vector<Eigen::Vector3d> toes;
   for (const std::string& toe : kToes) toes.push_back(in_platform(world, toe));
-  for (int second = 0; second < 20; ++second) {
+  for (int second = 0; second < 8; ++second) {
     run(world, 1.0);
     for (std::size_t i = 0; i < kToes.size(); ++i) {
       EXPECT_LT((in_platform(world, kToes[i]) - toes[i]).norm(), 0.010) << kToes[i];
@@ -375,6 +375,8 @@ TEST(World, RefusesCallsOfTheOtherArmModeAndNonFiniteCommands) {
   EXPECT_THROW(servo.command_arm(command, ArmVector::Zero()), std::invalid_argument);
   EXPECT_THROW(servo.command_arm(ArmVector::Zero(), command), std::invalid_argument);
   EXPECT_THROW((void)servo.frame("tail"), std::invalid_argument);
+  EXPECT_THROW(servo.push("tail", Eigen::Vector3d::Zero()), std::invalid_argument);
+  EXPECT_THROW(servo.push("base_link", {std::nan(""), 0, 0}), std::invalid_argument);
   WorldConfig config = folded_arm();
   config.arm_mode = ArmMode::kCompliant;
   World compliant(robot_urdf(), config);

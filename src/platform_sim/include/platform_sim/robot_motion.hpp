@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,8 +50,8 @@ struct MotionFigures {
 /// Watches a world at 100 Hz.
 class MotionObserver {
  public:
-  /// Steps the world by 10 ms and adds a sample.
-  void step(World& world);
+  /// Steps the world by 10 ms and adds a sample. `before`: called before each step of the physics.
+  void step(World& world, const std::function<void(World&)>& before = {});
 
   [[nodiscard]] const MotionPiece& samples() const { return samples_; }
   /// Mean over the toes of the way that they have slid on the deck, m.

@@ -92,6 +92,9 @@ class World {
   /// Compliant mode: force, N, at the origin of j2s7s300_end_effector and torque, Nm, on the hand,
   /// in world axes, held until the next call.
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+  /// A disturbance: force, N, in world axes, at the origin of a link during the next step only.
+  /// Throws std::invalid_argument if there is no such link or the force is not finite.
+  void push(const std::string& link, const Eigen::Vector3d& force);
 
  private:
   class Impl;
