@@ -76,6 +76,7 @@ TEST(World, TagIsFixedToThePlatform) {
 TEST(World, HandPushesTheCartAsideAndTheRobotStays) {
   WorldConfig config = folded_arm();
   config.scenario = "cart";
+  config.gait = "stand_stiff";
   config.seed = 4;
   World world(robot_urdf(), config);
   const Eigen::Vector3d base = world.base().pose.translation();
