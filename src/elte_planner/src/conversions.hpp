@@ -56,7 +56,10 @@ inline Forecast forecast_from(const prf_msgs::TargetForecast& message) {
     const Eigen::Map<const Eigen::Matrix3d, 0, Eigen::OuterStride<6>> covariance(
         prediction.covariance.data());
     forecast.predictions.push_back(
-        {prediction.horizon.toSec(), pose_from(prediction.pose), covariance.transpose()});
+        {prediction.horizon.toSec(),
+         pose_from(prediction.pose),
+         covariance.transpose(),
+         {prediction.twist.linear.x, prediction.twist.linear.y, prediction.twist.linear.z}});
   }
   return forecast;
 }

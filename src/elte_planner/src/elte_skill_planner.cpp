@@ -35,7 +35,9 @@ PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
   PlanResult result;
   result.positions = request.previous;
   solver_.solve(request.frozen, request.goal, request.radius, result.positions);
-  if (!keeps_step_bound(result, request.frozen)) return plan_with_step_bound(request);
+  if (!keeps_step_bound(result, request.frozen) || !keeps_approach(result, request)) {
+    return plan_with_constraints(request);
+  }
   result.status = PlanStatus::kSolved;
   result.kkt_residual = endpoint_kkt_residual(demonstration_, weights_, result.positions,
                                               request.frozen, request.goal, request.radius);
@@ -48,7 +50,13 @@ bool ElteSkillPlanner::keeps_step_bound(const PlanResult& plan, Eigen::Index fro
   return steps.rowwise().lpNorm<1>().maxCoeff() <= max_step_;
 }
 
-PlanResult ElteSkillPlanner::plan_with_step_bound(const PlanRequest& request) const {
+bool ElteSkillPlanner::keeps_approach(const PlanResult& plan, const PlanRequest& request) {
+  return std::all_of(request.approach.begin(), request.approach.end(), [&](const NodeBall& ball) {
+    return (plan.positions.row(ball.node).transpose() - ball.centre).lpNorm<1>() <= ball.radius;
+  });
+}
+
+PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) const {
   const Eigen::Index last = demonstration_.rows() - 1;
   EditProblem problem;
   problem.zeta = demonstration_;
@@ -62,6 +70,9 @@ PlanResult ElteSkillPlanner::plan_with_step_bound(const PlanRequest& request) co
       (request.goal.transpose() - request.previous.row(request.frozen - 1)).lpNorm<1>();
   const double radius = std::max(request.radius, distance - reach);
   problem.constraints = {PointConstraint::ball(last, request.goal, radius)};
+  for (const NodeBall& ball : request.approach) {
+    problem.constraints.push_back(PointConstraint::ball(ball.node, ball.centre, ball.radius));
+  }
   EditSettings settings;
   settings.max_iterations = kMaxIterations;
   EditSolution solution;

@@ -22,6 +22,7 @@ NodeParams load_node_params(const ros::NodeHandle& private_handle) {
   params.session.confidence = values.number("confidence");
   params.session.radius_min = values.number("radius_min");
   params.session.radius_max = values.number("radius_max");
+  params.session.approach_length = values.number("approach_length");
   params.late_after = values.number("late_after");
   values.refuse_unknown();
   params.session.validate();

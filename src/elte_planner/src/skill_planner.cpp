@@ -31,6 +31,14 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
   if (!is_within_magnitude(request.goal)) {
     refuse("goal has a coordinate that is not finite or above 1e100");
   };
+  for (const NodeBall& ball : request.approach) {
+    if (ball.node < request.frozen || ball.node >= nodes ||
+        ball.centre.size() != request.goal.size() || !is_within_magnitude(ball.centre) ||
+        !std::isfinite(ball.radius) || ball.radius < 0.0) {
+      refuse("ball of the approach at node " + std::to_string(ball.node) +
+             " is not finite or not at a free node");
+    }
+  }
   if (!is_within_magnitude(request.previous.topRows(request.frozen))) {
     refuse("frozen rows of the previous plan have a coordinate that is not finite or above 1e100");
   }

@@ -13,6 +13,8 @@ namespace elte_planner {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
+// The approach narrows towards the goal: the balls' radius falls by so much for each metre.
+constexpr double kNarrowing = 0.1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_range(const char* name, double value, double low, double high) {
@@ -25,15 +27,37 @@ void check_range(const char* name, double value, double low, double high) {
 
 bool is_usable(const TargetPrediction& prediction) {
   return std::isfinite(prediction.horizon) && prediction.target.is_finite() &&
-         prediction.covariance.allFinite() &&
+         prediction.covariance.allFinite() && prediction.velocity.allFinite() &&
          std::abs(prediction.target.orientation.norm() - 1.0) <=
              Demonstration::kQuaternionTolerance;
+}
+
+// Position at the fraction s of the time between two predictions, as the cubic of both velocities.
+Eigen::Vector3d hermite(const TargetPrediction& a, const TargetPrediction& b, double s) {
+  const double span = b.horizon - a.horizon;
+  const Eigen::Vector3d gap = b.target.position - a.target.position;
+  const Eigen::Vector3d start = span * a.velocity;
+  const Eigen::Vector3d end = span * b.velocity;
+  return a.target.position +
+         s * (start + s * (3.0 * gap - 2.0 * start - end + s * (start + end - 2.0 * gap)));
 }
 
 std::vector<Eigen::Quaterniond> orientations(const std::vector<TimedPose>& samples) {
   std::vector<Eigen::Quaterniond> result;
   result.reserve(samples.size());
   for (const TimedPose& sample : samples) result.push_back(sample.pose.orientation);
+  return result;
+}
+
+// The last nodes that are within `length` of the end, at least the end itself.
+std::vector<TimedPose> approach(const Demonstration& demonstration, double length) {
+  const auto& nodes = demonstration.samples();
+  const Eigen::Vector3d end = nodes.back().pose.position;
+  auto first = nodes.end() - 1;
+  while (first != nodes.begin() && ((first - 1)->pose.position - end).norm() <= length) --first;
+  const Eigen::Isometry3d to_target = demonstration.target().transform().inverse();
+  std::vector<TimedPose> result(first, nodes.end());
+  for (TimedPose& node : result) node.pose = pose_from(to_target * node.pose.transform());
   return result;
 }
 
@@ -50,6 +74,7 @@ void SessionParams::validate() const {
   }
   check_range("radius_min", radius_min, 0.0, 1.0);
   check_range("radius_max", radius_max, radius_min, 1.0);
+  check_range("approach_length", approach_length, 0.0, 10.0);
 }
 
 std::optional<TargetPrediction> predicted_target(const Forecast& forecast, double horizon) {
@@ -67,9 +92,9 @@ std::optional<TargetPrediction> predicted_target(const Forecast& forecast, doubl
   const TargetPrediction& b = *after;
   const double s = (horizon - a.horizon) / (b.horizon - a.horizon);
   return TargetPrediction{horizon,
-                          {a.target.position + s * (b.target.position - a.target.position),
-                           a.target.orientation.slerp(s, b.target.orientation)},
-                          (1.0 - s) * a.covariance + s * b.covariance};
+                          {hermite(a, b, s), a.target.orientation.slerp(s, b.target.orientation)},
+                          (1.0 - s) * a.covariance + s * b.covariance,
+                          (1.0 - s) * a.velocity + s * b.velocity};
 }
 
 SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
@@ -77,6 +102,7 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
       demonstration_(demonstration.resampled_by_arc_length(
           static_cast<std::size_t>((params.validate(), params.nodes)))),
       goal_in_target_(demonstration_.goal_in_target()),
+      approach_(approach(demonstration_, params.approach_length)),
       demonstrated_orientations_(orientations(demonstration_.samples())),
       planner_(make_skill_planner(params.planner, demonstration_.positions(), params.weights,
                                   params.max_step > 0.0 ? params.max_step : kInfinity)) {}
@@ -106,22 +132,38 @@ SkillAnswer SkillSession::answer(const Progress& progress, const Forecast* forec
   const double age = kNanosecond * static_cast<double>(progress.stamp - forecast->stamp);
   const double ahead = params_.framework ? progress.time_to_go + age : 0.0;
   if (!std::isfinite(ahead)) return keep("time_to_go is not finite", frozen);
-  const auto target = predicted_target(*forecast, std::clamp(ahead, 0.0, params_.horizon_max));
-  if (!target) return keep("the forecast has no usable prediction", frozen);
   try {
-    return adapt(frozen, *target);
+    const auto goals = this->goals(*forecast, ahead);
+    if (!goals) return keep("the forecast has no usable prediction", frozen);
+    return adapt(frozen, *goals);
   } catch (const std::invalid_argument& refused) {
     return keep(refused.what(), frozen);
   }
 }
 
-SkillAnswer SkillSession::adapt(Eigen::Index frozen, const TargetPrediction& target) {
-  const Pose goal = pose_from(target.target.transform() * goal_in_target_.transform());
+// ahead: time of the last node after the forecast's stamp, s.
+std::optional<std::vector<SkillSession::NodeGoal>> SkillSession::goals(const Forecast& forecast,
+                                                                       double ahead) const {
+  std::vector<NodeGoal> result;
+  const TimedPose& end = approach_.back();
+  for (const TimedPose& node : approach_) {
+    const double horizon = params_.framework ? ahead - (end.time - node.time) : 0.0;
+    const auto target = predicted_target(forecast, std::clamp(horizon, 0.0, params_.horizon_max));
+    if (!target) return std::nullopt;
+    const double radius = std::clamp(confidence_radius(target->covariance, params_.confidence),
+                                     params_.radius_min, params_.radius_max);
+    const double distance = (node.pose.position - end.pose.position).norm();
+    result.push_back({pose_from(target->target.transform() * node.pose.transform()),
+                      radius + kNarrowing * distance});
+  }
+  return result;
+}
+
+SkillAnswer SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals) {
   SkillAnswer answer;
   answer.poses = plan_ ? plan_->poses : demonstration_.samples();
   answer.frozen = frozen;
-  answer.radius = std::clamp(confidence_radius(target.covariance, params_.confidence),
-                             params_.radius_min, params_.radius_max);
+  answer.radius = goals.back().radius;
 
   PlanRequest request;
   request.previous.resize(params_.nodes, 3);
@@ -129,13 +171,21 @@ SkillAnswer SkillSession::adapt(Eigen::Index frozen, const TargetPrediction& tar
     request.previous.row(k) = answer.poses[static_cast<std::size_t>(k)].pose.position.transpose();
   }
   request.frozen = frozen;
-  request.goal = goal.position;
+  request.goal = goals.back().pose.position;
   request.radius = answer.radius;
+  std::vector<Eigen::Quaterniond> orientation_goals;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const auto node = static_cast<Eigen::Index>(answer.poses.size() - goals.size() + i);
+    orientation_goals.push_back(goals[i].pose.orientation);
+    if (node >= frozen && i + 1 < goals.size()) {
+      request.approach.push_back({node, goals[i].pose.position, goals[i].radius});
+    }
+  }
   const PlanResult plan = planner_->plan(request);
   if (plan.status == PlanStatus::kFailed) return keep(plan.message, frozen);
 
   const std::vector<Eigen::Quaterniond> blended = blend_orientations(
-      demonstrated_orientations_, orientations(answer.poses), frozen, goal.orientation);
+      demonstrated_orientations_, orientations(answer.poses), frozen, orientation_goals);
   for (std::size_t k = 0; k < answer.poses.size(); ++k) {
     answer.poses[k].pose = {plan.positions.row(static_cast<Eigen::Index>(k)).transpose(),
                             blended[k]};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -49,6 +50,7 @@ Forecast drifting(TargetStatus status = TargetStatus::kTracking) {
   for (const double horizon : {0.0, 0.5, 1.0, 2.0, 4.0}) {
     forecast.predictions.push_back(
         prediction(horizon, {0.0, 0.1 * horizon, 0.02}, 0.001 + 0.01 * horizon));
+    forecast.predictions.back().velocity.y() = 0.1;
   }
   return forecast;
 }
@@ -74,6 +76,42 @@ TEST(SkillSession, EndsAtTheDemonstratedPoseRelativeToThePredictedTarget) {
   EXPECT_LT(answer.poses.back().pose.orientation.angularDistance(goal.orientation), 1e-7);
   EXPECT_LE(answer.kkt_residual, 1e-14);
   EXPECT_EQ(answer.poses[1].time, reach().resampled_by_arc_length(50).samples()[1].time);
+}
+
+TEST(PredictedTarget, FollowsASineBetweenItsPredictions) {
+  Forecast forecast{0, TargetStatus::kTracking, {}};
+  for (const double t : {0.0, 0.5, 1.0, 2.0}) {
+    forecast.predictions.push_back(prediction(t, {0.1 * std::sin(2.4 * t), 0.0, 0.0}, 0.01));
+    forecast.predictions.back().velocity.x() = 0.24 * std::cos(2.4 * t);
+  }
+  for (const double t : {0.25, 0.75, 1.25, 1.5, 1.75}) {
+    const double x = predicted_target(forecast, t)->target.position.x() - 1.0;
+    EXPECT_NEAR(x, 0.1 * std::sin(2.4 * t), 0.009) << t;
+  }
+}
+
+TEST(SkillSession, BringsTheApproachWithTheTargetAsItIsAtTheTimeOfEachNode) {
+  SessionParams bound = params();
+  bound.approach_length = 0.15;
+  SkillSession session(bound, reach());
+  const Forecast forecast = drifting();
+  const SkillAnswer answer = session.answer(at(10, 1.6), &forecast);
+  ASSERT_EQ(answer.status, AnswerStatus::kSolved) << answer.message;
+  EXPECT_LE(answer.kkt_residual, 1e-12);
+  const auto& shown = session.demonstration().samples();
+  int checked = 0;
+  for (std::size_t k = 48; k >= 10; --k, ++checked) {
+    const double distance = (shown[k].pose.position - shown[49].pose.position).norm();
+    if (distance > bound.approach_length) break;
+    const double time = std::max(1.7 - (shown[49].time - shown[k].time), 0.0);
+    const Pose moved = prediction(time, {0.0, 0.1 * time, 0.02}, 0.0).target;
+    const Pose wanted = pose_from(moved.transform() * reach().target().transform().inverse() *
+                                  shown[k].pose.transform());
+    const double radius = answer.radius + 0.1 * distance;
+    EXPECT_LE((answer.poses[k].pose.position - wanted.position).lpNorm<1>(), radius + 1e-12) << k;
+    EXPECT_LT(answer.poses[k].pose.orientation.angularDistance(wanted.orientation), 1e-7) << k;
+  }
+  EXPECT_GE(checked, 15);
 }
 
 TEST(SkillSession, LooksNoFartherAheadThanAllowed) {
@@ -252,6 +290,7 @@ TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
   refused("horizon_max", [](SessionParams& p) { p.horizon_max = std::nan(""); });
   refused("confidence", [](SessionParams& p) { p.confidence = 1.0; });
   refused("radius_min", [](SessionParams& p) { p.radius_min = -0.1; });
+  refused("approach_length", [](SessionParams& p) { p.approach_length = -0.1; });
   refused("radius_max", [](SessionParams& p) { p.radius_max = 0.0005; });
 }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "prf_decision/execution_cursor.hpp"
 #include "text.hpp"
 
 namespace prf_decision {
@@ -54,6 +53,8 @@ void DecisionParameters::validate() const {
   require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0");
   require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
           tracking_tolerance, "> 0");
+  require(approach_length >= 0 && std::isfinite(approach_length), "approach_length",
+          approach_length, ">= 0");
   catch_up.validate();
   guards.validate();
   hmm.validate();
@@ -115,6 +116,8 @@ Outcome Decision::update(const Tick& tick) {
 }
 
 void Decision::take_in(const Tick& tick) {
+  // The answer is to the last tick: before this one's forecasts.
+  if (tick.answer) take_plan(*tick.answer);
   for (const auto& [stamp, forecast] : tick.forecasts) {
     const bool tracked = forecast && forecast->status == TargetStatus::kTracking;
     belief_ = tracked ? hmm_.observe(belief_, forecast->predictions[0].target.linear_velocity)
@@ -126,14 +129,21 @@ void Decision::take_in(const Tick& tick) {
       last_seen_ = std::max(last_seen_.value_or(seen), seen);
     }
   }
-  if (!tick.answer) return;
+}
+
+void Decision::take_plan(const PlanAnswer& answer) {
   plan_refusal_.reset();
-  if (!tick.answer->plan) {
-    plan_refusal_ = tick.answer->message;
+  if (!answer.plan) {
+    plan_refusal_ = answer.message;
     return;
   }
-  plan_ = tick.answer->plan;
+  plan_ = answer.plan;
   cursor_ = std::min(cursor_, static_cast<double>(plan_->poses.size() - 1));
+  if (!forecast_ || forecast_->predictions.empty()) {
+    approach_ = Approach();
+  } else {
+    approach_.take(*plan_, cursor_, answer.stamp, *forecast_);
+  }
 }
 
 std::optional<Objection> Decision::object_to_target(const Tick& tick) const {
@@ -226,11 +236,33 @@ MovingPose Decision::goal_at(Stamp stamp) const {
   return attached(target_at(*forecast_, stamp), plan_->goal_in_target);
 }
 
+// The target as far as it can be followed, whether seen or coasting; then where it was last.
+void Decision::follow_target(const Tick& tick) {
+  if (approached_) approached_ = {approached_->pose, {0, 0, 0}, {0, 0, 0}};
+  if (!forecast_ || tick.forecast_stale || forecast_->predictions.empty()) return;
+  const TargetStatus status = forecast_->status;
+  if (status != TargetStatus::kTracking && status != TargetStatus::kCoasting) return;
+  if (object_to_forecast(parameters_.guards, *forecast_)) return;
+  approached_ = target_at(*forecast_, tick.stamp + parameters_.lead);
+}
+
+bool Decision::is_bound_to_target() const {
+  return parameters_.framework && plan_ && approached_ &&
+         approach_.share(cursor_, parameters_.approach_length) > 0;
+}
+
+MovingPose Decision::hand_on_plan(Direction direction) const {
+  return is_bound_to_target()
+             ? approach_.hand(cursor_, direction, *approached_, parameters_.approach_length)
+             : hand_at(*plan_, cursor_, direction);
+}
+
 std::optional<MovingPose> Decision::reference(Stamp stamp, bool objected) const {
-  if (state_ == State::kForward) return hand_at(*plan_, cursor_, Direction::kForward);
+  if (state_ == State::kForward) return hand_on_plan(Direction::kForward);
   if (acts_on_plan(state_)) {
-    return hand_at(*plan_, cursor_, cursor_ > 0 ? Direction::kBack : Direction::kStand);
+    return hand_on_plan(cursor_ > 0 ? Direction::kBack : Direction::kStand);
   }
+  if (state_ == State::kPause && is_bound_to_target()) return hand_on_plan(Direction::kStand);
   if (!follows_target(state_)) return std::nullopt;
   if (!parameters_.framework) return hand_at(*plan_, cursor_, Direction::kStand);
   if (objected) return std::nullopt;
@@ -244,6 +276,7 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
     cursor_ = advance_cursor(*plan_, cursor_, direction, dt);
     rewinding_ = rewinding_ && cursor_ > 0;
   }
+  follow_target(tick);
   const std::optional<MovingPose> wanted = reference(tick.stamp, objected);
   const bool holds = state_ == State::kWaiting || state_ == State::kStopped;
   // The arm stands where it stopped, or was left by a decision before this one.

@@ -49,6 +49,7 @@ inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) 
   decision.dwell_time = seconds("dwell_time");
   decision.time_limit = seconds("time_limit");
   decision.tracking_tolerance = values.number("tracking_tolerance");
+  decision.approach_length = values.number("approach_length");
   const auto speed = values.numbers("catch_up_speed", 2);
   decision.catch_up = {speed[0], speed[1], values.number("catch_up_time")};
 

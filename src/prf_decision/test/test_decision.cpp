@@ -88,6 +88,53 @@ TEST(Decision, PausesAndGoesBackAsTheTargetQuickens) {
   world.until(State::kForward, 2);
 }
 
+TEST(Decision, StaysWithTheTargetWhilePausedOnTheApproach) {
+  DecisionParameters parameters = usual_parameters();
+  parameters.approach_length = 0.1;
+  World world(parameters);
+  world.until(State::kForward, 0.1);
+  world.run(0.75);
+  world.velocity = {0, 0.3, 0};
+  const auto tick = [&world] {
+    world.position += world.velocity * to_seconds(kTickPeriod);
+    return world.tick();
+  };
+  double cursor = 0;
+  for (int i = 0; i < 20; ++i) cursor = tick().progress.cursor;
+  for (int i = 0; i < 100; ++i) {
+    const double y = world.position.y();
+    const Outcome outcome = tick();
+    ASSERT_EQ(outcome.progress.state, State::kPause);
+    EXPECT_EQ(outcome.progress.cursor, cursor);
+    EXPECT_NEAR(outcome.setpoint->pose.position.y(), y, 0.05);
+  }
+}
+
+TEST(Approach, IsThePlanWhileTheTargetMovesAsForecastAndTheTargetsWhereItDoesNot) {
+  const Trajectory plan = straight_skill();
+  const Stamp start = from_seconds(5);
+  const Forecast forecast = forecast_of(start, kTarget, {0.1, 0.2, 0});
+  Approach approach;
+  EXPECT_EQ(approach.share(10, 0.1), 0);
+  approach.take(plan, 6, start, forecast);
+  for (const double cursor : {6.0, 7.0, 9.0, 10.0}) {
+    MovingPose target = target_at(forecast, start + from_seconds(0.1 * (cursor - 6)));
+    const Eigen::Vector3d planned = hand_at(plan, cursor, Direction::kForward).pose.position;
+    const auto position = [&] {
+      return approach.hand(cursor, Direction::kForward, target, 0.3).pose.position;
+    };
+    EXPECT_LT((position() - planned).norm(), 1e-12) << cursor;
+    target.pose.position.y() += 0.05;
+    EXPECT_LT((position() - planned - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-12) << cursor;
+  }
+  approach.take(plan, 6, start, forecast_of(start, kTarget, kStill));
+  EXPECT_LT((approach.hand(10, Direction::kStand, target_at(forecast, start), 0.3).pose.position -
+             plan.poses[10].position + 0.4 * Eigen::Vector3d(0.1, 0.2, 0))
+                .norm(),
+            1e-12)
+      << "a node that a new plan leaves where it is keeps its anchor";
+}
+
 TEST(Decision, RetractsFromTrackingWhenTheTargetBecomesUnstable) {
   World world;
   world.until(State::kTracking, 2);
@@ -267,6 +314,7 @@ TEST(DecisionParameters, AreRefusedByName) {
       {"dwell_time", [](auto& p) { p.dwell_time = Duration{-1}; }},
       {"time_limit", [](auto& p) { p.time_limit = Duration{0}; }},
       {"tracking_tolerance", [](auto& p) { p.tracking_tolerance = NAN; }},
+      {"approach_length", [](auto& p) { p.approach_length = -1; }},
       {"catch_up_speed", [](auto& p) { p.catch_up.linear = 0; }},
       {"catch_up_time", [](auto& p) { p.catch_up.time_constant = 0; }},
       {"max_reach", [](auto& p) { p.guards.max_reach = -1; }},

@@ -48,7 +48,12 @@ TEST_F(HmmFile, GivesTheValuesThatAreWrittenInIt) {
 }
 
 TEST_F(HmmFile, OfTheConfigurationIsValid) {
-  expect_same(load_hmm("config/hmm_default.yaml"), usual_hmm());
+  const HmmParameters hmm = load_hmm("config/hmm_default.yaml");
+  HmmParameters expected = usual_hmm();
+  expected.covariance = {Eigen::Matrix3d::Identity() * 0.15 * 0.15,
+                         Eigen::Matrix3d::Identity() * 0.285 * 0.285,
+                         Eigen::Matrix3d::Identity() * 0.54 * 0.54};
+  expect_same(hmm, expected);
 }
 
 TEST_F(HmmFile, KeepsEveryDigitWhenWrittenAndRead) {

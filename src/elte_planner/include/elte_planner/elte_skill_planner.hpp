@@ -28,7 +28,8 @@ class ElteSkillPlanner : public SkillPlanner {
 
  private:
   bool keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const;
-  PlanResult plan_with_step_bound(const PlanRequest& request) const;
+  static bool keeps_approach(const PlanResult& plan, const PlanRequest& request);
+  PlanResult plan_with_constraints(const PlanRequest& request) const;
 
   Eigen::MatrixXd demonstration_;
   ElteWeights weights_;

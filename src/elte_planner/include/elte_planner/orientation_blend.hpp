@@ -2,9 +2,9 @@
 //
 // Orientations along an edited path. The demonstrated orientation D_k is corrected by a rotation
 // C_k of the planning frame, R_k = C_k D_k: at the last frozen node C is what the previous plan has
-// there, at the last node it takes D to the goal, between them it follows the geodesic evenly by
-// node. So frozen nodes stay, the orientation is continuous at the cursor, the end is the goal, and
-// planning again one node later for the same goal changes nothing.
+// there, at the last nodes it takes D to their goals, between them it follows the geodesic evenly
+// by node. So frozen nodes stay, the orientation is continuous at the cursor, the end is the goal,
+// and planning again one node later for the same goals changes nothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,11 @@
 
 namespace elte_planner {
 
-// frozen: 1 .. nodes. Throws std::invalid_argument when sizes differ or frozen is out of range.
+// frozen: 1 .. nodes; goals: of the last nodes, at least of one. Throws std::invalid_argument when
+// sizes differ or frozen is out of range.
 [[nodiscard]] std::vector<Eigen::Quaterniond> blend_orientations(
     const std::vector<Eigen::Quaterniond>& demonstrated,
     const std::vector<Eigen::Quaterniond>& previous, Eigen::Index frozen,
-    const Eigen::Quaterniond& goal);
+    const std::vector<Eigen::Quaterniond>& goals);
 
 }  // namespace elte_planner

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "elte_planner/elte_energy.hpp"
 
@@ -20,11 +21,18 @@ enum class PlanStatus {
   kFailed,   // no plan, the message says why
 };
 
+struct NodeBall {
+  Eigen::Index node = 0;
+  Eigen::VectorXd centre;
+  double radius = 0.0;  // l1, >= 0
+};
+
 struct PlanRequest {
   Eigen::MatrixXd previous;  // nodes x dimensions; its first `frozen` rows are kept as they are
   Eigen::Index frozen = 2;   // 2 .. nodes
   Eigen::VectorXd goal;
-  double radius = 0.0;  // of the l1 ball around the goal, >= 0
+  double radius = 0.0;                  // of the l1 ball around the goal, >= 0
+  std::vector<NodeBall> approach = {};  // of free nodes before the last; elte and lte keep to them
 };
 
 struct PlanResult {

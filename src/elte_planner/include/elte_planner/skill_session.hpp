@@ -24,6 +24,7 @@ struct TargetPrediction {
   double horizon = 0.0;  // s after the forecast's stamp
   Pose target;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the position, m^2
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    // m/s
 };
 
 struct Forecast {
@@ -44,11 +45,12 @@ struct SessionParams {
   bool framework = true;  // false: adapt once, to the first tracked forecast
   int nodes = 0;          // of the plan, 3 .. 10000
   ElteWeights weights;
-  double max_step = 0.0;     // m, greatest l1 distance of consecutive nodes; 0: no bound
-  double horizon_max = 0.0;  // s, farthest look ahead, within [0, 60]
-  double confidence = 0.0;   // probability of the end point's l1 ball, within (0, 1)
-  double radius_min = 0.0;   // m
-  double radius_max = 0.0;   // m, at least radius_min
+  double max_step = 0.0;         // m, greatest l1 distance of consecutive nodes; 0: no bound
+  double horizon_max = 0.0;      // s, farthest look ahead, within [0, 60]
+  double confidence = 0.0;       // probability of the end point's l1 ball, within (0, 1)
+  double radius_min = 0.0;       // m
+  double radius_max = 0.0;       // m, at least radius_min
+  double approach_length = 0.0;  // m, of the skill's end where every node has a ball; 0: the last
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
 };
@@ -65,8 +67,9 @@ struct SkillAnswer {
   std::vector<TimedPose> poses;
 };
 
-// The target `horizon` seconds after the forecast's stamp, interpolated between the predictions and
-// held beyond the last; nothing when there are none, one is not finite or horizons do not rise.
+// The target `horizon` seconds after the forecast's stamp, interpolated between the predictions
+// (its position by the cubic of their velocities) and held beyond the last; nothing when there are
+// none, one is not finite or horizons do not rise.
 [[nodiscard]] std::optional<TargetPrediction> predicted_target(const Forecast& forecast,
                                                                double horizon);
 
@@ -85,12 +88,20 @@ class SkillSession {
   std::string planner_name() const { return planner_->name(); }
 
  private:
-  SkillAnswer adapt(Eigen::Index frozen, const TargetPrediction& target);
+  // What the last nodes shall be for the target as it is forecast at the time of each.
+  struct NodeGoal {
+    Pose pose;
+    double radius;  // of the l1 ball, m
+  };
+
+  std::optional<std::vector<NodeGoal>> goals(const Forecast& forecast, double ahead) const;
+  SkillAnswer adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
   SkillAnswer keep(const std::string& reason, Eigen::Index frozen) const;
 
   SessionParams params_;
   Demonstration demonstration_;  // resampled to the plan's nodes
   Pose goal_in_target_;
+  std::vector<TimedPose> approach_;  // the last nodes, in the target's frame
   std::vector<Eigen::Quaterniond> demonstrated_orientations_;
   std::unique_ptr<SkillPlanner> planner_;
   std::optional<SkillAnswer> plan_;  // the last feasible one

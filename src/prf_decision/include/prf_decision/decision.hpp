@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "prf_decision/approach.hpp"
 #include "prf_decision/decision_fsm.hpp"
 #include "prf_decision/guards.hpp"
 #include "prf_decision/hmm.hpp"
@@ -28,6 +29,7 @@ struct DecisionParameters {
   Duration dwell_time{0};         // least time in a state before the HMM may change it
   Duration time_limit{0};         // from the execution's first tick
   double tracking_tolerance = 0;  // set-point to goal, m
+  double approach_length = 0;     // of the skill's end that belongs to the target, m
   CatchUp catch_up;
   GuardParameters guards;
   HmmParameters hmm;
@@ -91,12 +93,16 @@ class Decision {
 
   void begin_execution(Stamp stamp);
   void take_in(const Tick& tick);
+  void take_plan(const PlanAnswer& answer);
   [[nodiscard]] std::optional<Objection> object_to_target(const Tick& tick) const;
   [[nodiscard]] std::optional<Objection> object(const Tick& tick) const;
   [[nodiscard]] Assessment assess(const Tick& tick) const;
   void change_state(const Tick& tick, const Assessment& assessment);
   [[nodiscard]] bool try_event(Stamp stamp, Event event, const std::string& reason);
   [[nodiscard]] MovingPose goal_at(Stamp stamp) const;
+  void follow_target(const Tick& tick);
+  [[nodiscard]] bool is_bound_to_target() const;
+  [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
   [[nodiscard]] std::optional<MovingPose> reference(Stamp stamp, bool objected) const;
   [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool objected);
   [[nodiscard]] Progress report(Stamp stamp) const;
@@ -116,6 +122,8 @@ class Decision {
   Stamp entered_{0};  // when the state was entered
   std::shared_ptr<const Forecast> forecast_;
   std::shared_ptr<const Trajectory> plan_;
+  Approach approach_;                        // of plan_
+  std::optional<MovingPose> approached_;     // the target that it follows
   std::optional<std::string> plan_refusal_;  // the planner's last answer had no plan
   std::optional<Stamp> last_seen_;           // last measurement of the target
   std::optional<Stamp> tracked_since_;

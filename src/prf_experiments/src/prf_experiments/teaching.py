@@ -11,7 +11,7 @@ from prf_experiments import demonstration, frames, geometry, recording, session
 
 HAND_FRAME = "j2s7s300_end_effector"
 RATE = 20.0  # Hz, of the demonstration
-MOVING_SPEED = 0.003  # m/s, slower the hand counts as still
+MOVING_SPEED = 0.01  # m/s, slower the hand counts as still
 MOVING_RATE = 0.01  # rad/s
 TARGET_WINDOW = 1.0  # s at the end of the bag over which the target's pose is averaged
 LINKS = {("/joint_states", "/platform_sim", "/robot_state_publisher"),
