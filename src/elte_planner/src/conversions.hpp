@@ -6,7 +6,7 @@
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
 
-#include "elte_planner/skill_session.hpp"
+#include "elte_planner/followed_skill.hpp"
 
 namespace elte_planner {
 
@@ -65,8 +65,11 @@ inline Forecast forecast_from(const prf_msgs::TargetForecast& message) {
 }
 
 inline Progress progress_from(const prf_msgs::ExecutionProgress& message) {
-  return {nanoseconds(message.header.stamp), nanoseconds(message.forecast_stamp),
-          static_cast<Eigen::Index>(message.frozen), message.time_to_go.toSec()};
+  return {nanoseconds(message.header.stamp),
+          nanoseconds(message.forecast_stamp),
+          static_cast<Eigen::Index>(message.frozen),
+          message.time_to_go.toSec(),
+          {message.demonstration, message.handover}};
 }
 
 inline std::uint8_t message_status(AnswerStatus status) {
@@ -83,21 +86,36 @@ inline std::uint8_t message_status(AnswerStatus status) {
   return prf_msgs::SkillTrajectory::NO_PLAN;
 }
 
-inline prf_msgs::SkillTrajectory trajectory_from(const Progress& progress,
-                                                 const SkillAnswer& answer,
-                                                 const SkillSession& session) {
+inline prf_msgs::SkillTrajectory answer_to(const Progress& progress, const FollowedSkill& skill) {
   prf_msgs::SkillTrajectory message;
   message.header.stamp = ros_time(progress.stamp);
-  message.header.frame_id = session.demonstration().frame();
+  message.header.frame_id = skill.session().demonstration().frame();
   message.forecast_stamp = ros_time(progress.forecast_stamp);
+  message.demonstration = skill.demonstration();
+  message.handover = progress.wanted.handover;
+  message.planner = skill.session().planner_name();
+  message.goal_in_target = message_from(skill.session().goal_in_target());
+  return message;
+}
+
+inline prf_msgs::SkillTrajectory refusal_from(const Progress& progress, const FollowedSkill& skill,
+                                              const std::string& reason) {
+  prf_msgs::SkillTrajectory message = answer_to(progress, skill);
+  message.status = prf_msgs::SkillTrajectory::REFUSED;
+  message.message = reason;
+  return message;
+}
+
+inline prf_msgs::SkillTrajectory trajectory_from(const Progress& progress,
+                                                 const FollowedSkill& skill,
+                                                 const SkillAnswer& answer) {
+  prf_msgs::SkillTrajectory message = answer_to(progress, skill);
   message.status = message_status(answer.status);
   message.message = answer.message;
-  message.planner = session.planner_name();
   message.frozen = static_cast<std::uint32_t>(answer.frozen);
   message.kkt_residual = answer.kkt_residual;
   message.radius = answer.radius;
   message.slack = answer.slack;
-  message.goal_in_target = message_from(session.goal_in_target());
   for (const TimedPose& node : answer.poses) {
     message.poses.push_back(message_from(node.pose));
     message.time_from_start.emplace_back(node.time);

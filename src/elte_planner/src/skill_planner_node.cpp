@@ -6,8 +6,8 @@
 #include <chrono>
 
 #include "conversions.hpp"
+#include "elte_planner/followed_skill.hpp"
 #include "elte_planner/request_queue.hpp"
-#include "elte_planner/skill_session.hpp"
 #include "node_params.hpp"
 
 namespace elte_planner {
@@ -20,8 +20,9 @@ class SkillPlannerNode {
   explicit SkillPlannerNode(const NodeParams& params)
       : frame_(params.frame),
         late_after_(params.late_after),
-        session_(params.session, demonstration(params)) {
-    warn_of_lost_shape(params.session.weights);
+        weights_(params.session.weights),
+        skill_(params.session, params.demonstration, params.frame) {
+    warn_of_lost_shape();
     const auto hints = ros::TransportHints().tcpNoDelay();
     forecast_ =
         node_.subscribe("target/forecast", 100, &SkillPlannerNode::on_forecast, this, hints);
@@ -34,23 +35,14 @@ class SkillPlannerNode {
   }
 
  private:
-  static Demonstration demonstration(const NodeParams& params) {
-    Demonstration loaded = load_demonstration(params.demonstration);
-    if (loaded.frame() != params.frame) {
-      throw std::invalid_argument("frame is '" + params.frame + "', must be '" + loaded.frame() +
-                                  "' as in " + params.demonstration);
-    }
-    return loaded;
-  }
-
-  void warn_of_lost_shape(const ElteWeights& weights) const {
-    const double loss = shape_loss(session_.demonstration().positions(), weights);
+  void warn_of_lost_shape() const {
+    const Demonstration& demonstration = skill_.session().demonstration();
+    const double loss = shape_loss(demonstration.positions(), weights_);
     if (loss < kShapeLossWarning) return;
     ROS_WARN(
         "w_elastic %g pulls a plan of %zu nodes straight: %.0f %% of the demonstrated shape "
         "is lost without any editing (a disturbance decays over %.1f nodes)",
-        weights.elastic, session_.demonstration().samples().size(), 100.0 * loss,
-        weights.decay_nodes());
+        weights_.elastic, demonstration.samples().size(), 100.0 * loss, weights_.decay_nodes());
   }
 
   bool in_planning_frame(const std_msgs::Header& header, const char* topic) {
@@ -73,24 +65,43 @@ class SkillPlannerNode {
     answer_decided_requests();
   }
 
+  prf_msgs::SkillTrajectory answer(const JoinedRequest& request) {
+    const Progress& progress = request.progress;
+    const std::string before = skill_.demonstration();
+    if (const auto reason = skill_.follow(progress.wanted)) {
+      if (message_ != *reason) ROS_WARN("demonstration refused: %s", reason->c_str());
+      status_ = AnswerStatus::kNoPlan;
+      message_ = *reason;
+      return refusal_from(progress, skill_, *reason);
+    }
+    if (skill_.demonstration() != before) {
+      ROS_INFO("follows %s", skill_.demonstration().c_str());
+      warn_of_lost_shape();
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const SkillAnswer answer =
+        skill_.session().answer(progress, request.forecast ? &*request.forecast : nullptr);
+    note_solve_time(std::chrono::steady_clock::now() - start);
+    note_status(answer);
+    return trajectory_from(progress, skill_, answer);
+  }
+
+  void note_status(const SkillAnswer& answer) {
+    status_ = answer.status;
+    message_ = answer.message;
+    if (answer.status != AnswerStatus::kKept) return;
+    ++kept_;
+    ROS_WARN_THROTTLE(5.0, "last plan kept: %s", answer.message.c_str());
+  }
+
   void answer_decided_requests() {
     while (const auto request = queue_.next()) {
       if (request->new_run) {
         ROS_INFO("stamps went back: new run");
-        session_.reset();
+        skill_.session().reset();
       }
-      const auto start = std::chrono::steady_clock::now();
-      const SkillAnswer answer =
-          session_.answer(request->progress, request->forecast ? &*request->forecast : nullptr);
-      note_solve_time(std::chrono::steady_clock::now() - start);
-      trajectory_.publish(trajectory_from(request->progress, answer, session_));
+      trajectory_.publish(answer(*request));
       ++answers_;
-      status_ = answer.status;
-      message_ = answer.message;
-      if (answer.status == AnswerStatus::kKept) {
-        ++kept_;
-        ROS_WARN_THROTTLE(5.0, "last plan kept: %s", answer.message.c_str());
-      }
     }
     updater_.update();
   }
@@ -119,7 +130,8 @@ class SkillPlannerNode {
 
   std::string frame_;
   double late_after_;  // s
-  SkillSession session_;
+  ElteWeights weights_;
+  FollowedSkill skill_;
   RequestQueue queue_;
   std::size_t answers_ = 0;
   std::size_t kept_ = 0;

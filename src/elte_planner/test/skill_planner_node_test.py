@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The node from outside: one answer per named forecast, refusal of bad parameters."""
+import os
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import rospkg
@@ -30,8 +32,9 @@ def forecast(stamp, y=0.0, status=TargetForecast.TRACKING, frame=FRAME):
     return message
 
 
-def progress(stamp, forecast_stamp, frozen=2):
-    message = ExecutionProgress(frozen=frozen, time_to_go=rospy.Duration.from_sec(1.0))
+def progress(stamp, forecast_stamp, frozen=2, demonstration="", handover=0):
+    message = ExecutionProgress(frozen=frozen, time_to_go=rospy.Duration.from_sec(1.0),
+                                demonstration=demonstration, handover=handover)
     message.header.stamp = rospy.Time.from_sec(stamp)
     message.header.frame_id = FRAME
     message.forecast_stamp = rospy.Time.from_sec(forecast_stamp)
@@ -107,8 +110,29 @@ class SkillPlannerNode(unittest.TestCase):
             forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
         self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
 
+    def test_7_follows_the_demonstration_wanted_or_says_why_not(self):
+        first = rospy.get_param("~demonstration")
+        with open(first, encoding="utf-8") as file:
+            text = file.read()
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as other:
+            other.write(text.replace("target_pose: 0.8", "target_pose: 0.9"))
+            other.flush()
+            before, moved, missing, kept, back = self.answers_after(
+                *(message for i, wanted in enumerate(
+                    [("", 0), (other.name, 1), ("missing.csv", 2), (other.name, 1), ("", 0)])
+                  for message in (forecast(11.0 + i), progress(11.06 + i, 11.0 + i, 2, *wanted))))
+        self.assertEqual([answer.handover for answer in (before, moved, missing, kept, back)],
+                         [0, 1, 2, 1, 0])
+        self.assertEqual([answer.demonstration for answer in (before, moved, missing, kept, back)],
+                         [first, other.name, other.name, other.name, first])
+        self.assertAlmostEqual(before.poses[-1].position.x - moved.poses[-1].position.x, 0.1, 2)
+        self.assertEqual((missing.status, missing.poses), (SkillTrajectory.REFUSED, []))
+        self.assertEqual(missing.message,
+                         os.path.join(os.path.dirname(first), "missing.csv: cannot be read"))
+        self.assertEqual((kept.status, kept.poses), (moved.status, moved.poses))
+        self.assertEqual(back.poses, before.poses)
 
-    def test_7_tells_late_solves_and_sends_their_plans(self):
+    def test_8_tells_late_solves_and_sends_their_plans(self):
         answers, reports = [], {}
 
         def remember(message):

@@ -35,6 +35,16 @@ bool acts_on_plan(State state) {
   return state == State::kForward || state == State::kReverse || state == State::kRetract;
 }
 
+MovingPose goal_at(const Forecast& forecast, const Trajectory& plan, Stamp stamp) {
+  return attached(target_at(forecast, stamp), plan.goal_in_target);
+}
+
+bool are_near(const Pose& a, const Pose& b, double distance) {
+  constexpr double kAngle = 0.05;  // rad
+  return (a.position - b.position).norm() <= distance &&
+         a.orientation.angularDistance(b.orientation) <= kAngle;
+}
+
 bool follows_target(State state) { return state == State::kTracking || state == State::kDone; }
 
 // States whose reason is what the assessment says now, not what led into them.
@@ -63,6 +73,10 @@ void DecisionParameters::validate() const {
 void Order::validate() const {
   require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0");
   require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0");
+  if (resume && !demonstration.empty()) {
+    throw std::invalid_argument("demonstration is '" + demonstration +
+                                "', must be empty with resume, which goes on with the one before");
+  }
 }
 
 Decision::Decision(const DecisionParameters& parameters)
@@ -80,6 +94,7 @@ bool Decision::can_begin() const {
 void Decision::begin(const Order& order) {
   order.validate();
   if (!can_begin()) throw std::invalid_argument("an execution is under way");
+  if (!order.demonstration.empty()) handover_.ask(order.demonstration);
   order_ = order;
   preempted_ = false;
 }
@@ -101,13 +116,16 @@ void Decision::begin_execution(Stamp stamp) {
   cause_ = Event::kCalm;
   reason_.clear();
   tracked_since_.reset();
-  rewinding_ = !execution_->resume && cursor_ > 0;
+  rewinding_ = (!execution_->resume && cursor_ > 0) || handover_.is_taking_over();
 }
 
 Outcome Decision::update(const Tick& tick) {
   if (!last_tick_) last_tick_ = tick.stamp;
-  if (order_) begin_execution(tick.stamp);
+  refusal_.clear();
   take_in(tick);
+  stop_asking(tick.stamp);
+  if (order_ && !handover_.is_asking()) begin_execution(tick.stamp);
+  take_over_when_at_the_start();
   const Assessment assessment = assess(tick);
   change_state(tick, assessment);
   const std::optional<MovingPose> setpoint = move(tick, assessment.objected);
@@ -117,7 +135,7 @@ Outcome Decision::update(const Tick& tick) {
 
 void Decision::take_in(const Tick& tick) {
   // The answer is to the last tick: before this one's forecasts.
-  if (tick.answer) take_plan(*tick.answer);
+  if (tick.answer) take_answer(*tick.answer);
   for (const auto& [stamp, forecast] : tick.forecasts) {
     const bool tracked = forecast && forecast->status == TargetStatus::kTracking;
     belief_ = tracked ? hmm_.observe(belief_, forecast->predictions[0].target.linear_velocity)
@@ -131,19 +149,65 @@ void Decision::take_in(const Tick& tick) {
   }
 }
 
-void Decision::take_plan(const PlanAnswer& answer) {
+void Decision::take_answer(const PlanAnswer& answer) {
+  switch (handover_.take(answer.handover, answer.refused)) {
+    case Reply::kOfAnother:
+      return;
+    case Reply::kRefused:
+      order_.reset();
+      refusal_ = answer.message;
+      return;
+    case Reply::kTakenUp:
+      next_ = {};
+      break;
+    case Reply::kPlan:
+      break;
+  }
   plan_refusal_.reset();
   if (!answer.plan) {
     plan_refusal_ = answer.message;
     return;
   }
-  plan_ = answer.plan;
+  const Planned planned{answer.plan, answer.stamp, forecast_};
+  if (handover_.is_taking_over()) {
+    next_ = planned;
+  } else {
+    adopt(planned);
+  }
+}
+
+void Decision::adopt(const Planned& planned) {
+  plan_ = planned.plan;
   cursor_ = std::min(cursor_, static_cast<double>(plan_->poses.size() - 1));
-  if (!forecast_ || forecast_->predictions.empty()) {
+  if (!planned.forecast || planned.forecast->predictions.empty()) {
     approach_ = Approach();
   } else {
-    approach_.take(*plan_, cursor_, answer.stamp, *forecast_);
+    approach_.take(*plan_, cursor_, planned.stamp, *planned.forecast);
   }
+}
+
+void Decision::take_over_when_at_the_start() {
+  if (!handover_.is_taking_over() || !execution_ || cursor_ > 0 || !next_.plan) return;
+  handover_.come_into_force();
+  approach_ = Approach();
+  adopt(std::exchange(next_, {}));
+}
+
+// The planner does not answer, or whoever asked does not want it any more.
+void Decision::stop_asking(Stamp stamp) {
+  if (!handover_.is_asking()) return;
+  if (handover_.is_overdue(stamp)) {
+    refusal_ =
+        sentence("the planner did not answer within ", to_seconds(Handover::kPatience), " s");
+  }
+  if (preempted_) refusal_ = "preempted";
+  if (refusal_.empty()) return;
+  handover_.withdraw();
+  order_.reset();
+}
+
+const std::shared_ptr<const Trajectory>& Decision::newest_plan() const {
+  return handover_.is_taking_over() ? next_.plan : plan_;
 }
 
 std::optional<Objection> Decision::object_to_target(const Tick& tick) const {
@@ -170,11 +234,13 @@ std::optional<Objection> Decision::object(const Tick& tick) const {
   if (parameters_.framework) {
     if (const auto objection = object_to_target(tick)) return objection;
   }
-  if (!plan_) return hazard("no plan yet" + (plan_refusal_ ? ": " + *plan_refusal_ : ""));
+  const auto& plan = newest_plan();
+  if (!plan) return hazard("no plan yet" + (plan_refusal_ ? ": " + *plan_refusal_ : ""));
   if (!parameters_.framework) return std::nullopt;
   if (tick.plan_stale) return hazard("planner silent");
   if (plan_refusal_) return hazard("planner has no plan: " + *plan_refusal_);
-  return object_to_goal(parameters_.guards, goal_at(tick.stamp + parameters_.lead).pose);
+  return object_to_goal(parameters_.guards,
+                        goal_at(*forecast_, *plan, tick.stamp + parameters_.lead).pose);
 }
 
 Decision::Assessment Decision::assess(const Tick& tick) const {
@@ -232,10 +298,6 @@ void Decision::change_state(const Tick& tick, const Assessment& assessment) {
   if (explains_itself(state_) && !assessment.reason.empty()) reason_ = assessment.reason;
 }
 
-MovingPose Decision::goal_at(Stamp stamp) const {
-  return attached(target_at(*forecast_, stamp), plan_->goal_in_target);
-}
-
 // The target as far as it can be followed, whether seen or coasting; then where it was last.
 void Decision::follow_target(const Tick& tick) {
   if (approached_) approached_ = {approached_->pose, {0, 0, 0}, {0, 0, 0}};
@@ -266,7 +328,7 @@ std::optional<MovingPose> Decision::reference(Stamp stamp, bool objected) const 
   if (!follows_target(state_)) return std::nullopt;
   if (!parameters_.framework) return hand_at(*plan_, cursor_, Direction::kStand);
   if (objected) return std::nullopt;
-  return goal_at(stamp + parameters_.lead);
+  return goal_at(*forecast_, *plan_, stamp + parameters_.lead);
 }
 
 std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
@@ -274,7 +336,6 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
   if (acts_on_plan(state_)) {
     const auto direction = state_ == State::kForward ? Direction::kForward : Direction::kBack;
     cursor_ = advance_cursor(*plan_, cursor_, direction, dt);
-    rewinding_ = rewinding_ && cursor_ > 0;
   }
   follow_target(tick);
   const std::optional<MovingPose> wanted = reference(tick.stamp, objected);
@@ -286,6 +347,9 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
     setpoint =
         setpoint_ ? limited_setpoint(*setpoint_, *wanted, parameters_.catch_up, dt) : *wanted;
     setpoint_ = setpoint->pose;
+    const bool at_start = cursor_ == 0 && !handover_.is_taking_over() &&
+                          are_near(*setpoint_, wanted->pose, parameters_.tracking_tolerance);
+    rewinding_ = rewinding_ && !at_start;
   } else if (!holds && setpoint_) {
     setpoint = MovingPose{*setpoint_, {0, 0, 0}, {0, 0, 0}};
   }
@@ -310,13 +374,17 @@ Progress Decision::report(Stamp stamp) const {
   progress.posterior = parameters_.framework ? belief_.posterior : Eigen::Vector3d::UnitX();
   progress.cause = cause_;
   progress.cursor = cursor_;
-  if (plan_) {
-    progress.share = cursor_ / static_cast<double>(plan_->poses.size() - 1);
+  progress.demonstration = handover_.wanted();
+  progress.refusal = refusal_;
+  if (plan_) progress.share = cursor_ / static_cast<double>(plan_->poses.size() - 1);
+  if (handover_.is_asking() || handover_.is_taking_over()) {
+    if (next_.plan) progress.time_to_go = next_.plan->times.back();
+  } else if (plan_) {
     progress.frozen = frozen_nodes(*plan_, cursor_);
     progress.time_to_go = time_to_go(*plan_, cursor_);
   }
   if (plan_ && setpoint_ && forecast_ && !forecast_->predictions.empty()) {
-    const Pose goal = goal_at(stamp).pose;
+    const Pose goal = goal_at(*forecast_, *plan_, stamp).pose;
     const Eigen::Vector3d offset = setpoint_->position - goal.position;
     const Eigen::Vector3d axis = goal.orientation * Eigen::Vector3d::UnitZ();
     progress.goal_distance = offset.norm();

@@ -22,7 +22,7 @@ class DecisionNode {
       : parameters_(parameters),
         gate_(parameters.gate),
         decision_(parameters.decision),
-        action_(node_, decision_, parameters.demonstration),
+        action_(node_, decision_),
         live_(ros::NodeHandle("~"), live_numbers(parameters.decision),
               [this](const LiveParameters::Values& values) { tune(values); }) {
     const auto hints = ros::TransportHints().tcpNoDelay();
@@ -68,8 +68,9 @@ class DecisionNode {
   }
 
   void on_trajectory(const prf_msgs::SkillTrajectory& message) {
-    PlanAnswer answer{to_core(message.header.stamp), nullptr, ""};
-    if (message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
+    const bool refused = message.status == prf_msgs::SkillTrajectory::REFUSED;
+    PlanAnswer answer{to_core(message.header.stamp), nullptr, "", message.handover, refused};
+    if (refused || message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
       answer.message = message.message;
       count("skill/trajectory without a plan");
     } else {

@@ -17,7 +17,6 @@ namespace prf_decision {
 struct NodeParameters {
   GateParameters gate;
   DecisionParameters decision;
-  std::string demonstration;  // that the planner has; empty: not known
 };
 
 // Bounded before it becomes whole nanoseconds, which cannot hold NaN or infinity.
@@ -42,7 +41,6 @@ inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) 
   DecisionParameters& decision = parameters.decision;
   decision.framework = values.flag("framework");
   decision.autostart = values.flag("autostart");
-  parameters.demonstration = values.text("demonstration");
   decision.max_gap = gate.max_wait;
   decision.lead = seconds("lead");
   decision.hold_time = seconds("hold_time");

@@ -16,11 +16,6 @@ constexpr double kStill = 0.02;                          // rad/s, of every join
 constexpr Duration kMaxBraking = milliseconds(1000);     // data time
 constexpr Duration kFeedbackPeriod = milliseconds(100);  // data time, while the state lasts
 
-std::string file_name(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
-}
-
 prf_msgs::ExecuteSkillResult result_of(std::uint8_t code, const std::string& text) {
   prf_msgs::ExecuteSkillResult result;
   result.code = code;
@@ -29,15 +24,13 @@ prf_msgs::ExecuteSkillResult result_of(std::uint8_t code, const std::string& tex
 }
 
 Order order_of(const prf_msgs::ExecuteSkillGoal& goal) {
-  return {to_core(goal.time_limit), to_core(goal.hold_time), goal.resume != 0};
+  return {to_core(goal.time_limit), to_core(goal.hold_time), goal.resume != 0, goal.demonstration};
 }
 
 }  // namespace
 
-SkillAction::SkillAction(const ros::NodeHandle& node, Decision& decision,
-                         const std::string& demonstration)
+SkillAction::SkillAction(const ros::NodeHandle& node, Decision& decision)
     : decision_(decision),
-      demonstration_(demonstration),
       server_(
           node, "execute_skill", [this](Server::GoalHandle goal) { on_goal(goal); },
           [this](Server::GoalHandle goal) { on_cancel(goal); }, false) {}
@@ -52,10 +45,6 @@ void SkillAction::see_joints(const sensor_msgs::JointState& joints) {
 }
 
 std::string SkillAction::refusal(const prf_msgs::ExecuteSkillGoal& goal) const {
-  const std::string& wanted = goal.demonstration;
-  if (!wanted.empty() && wanted != demonstration_ && wanted != file_name(demonstration_)) {
-    return "demonstration '" + wanted + "' is not loaded; the planner has '" + demonstration_ + "'";
-  }
   if (!decision_.can_begin()) return "an execution is under way";
   try {
     order_of(goal).validate();
@@ -76,15 +65,36 @@ void SkillAction::on_goal(Server::GoalHandle goal) {
   goal_ = goal;
   stopped_.reset();
   feedback_given_.reset();
-  goal_->setAccepted();
+  pending_ = decision_.is_asking();
+  if (!pending_) goal_->setAccepted();
 }
 
 void SkillAction::on_cancel(Server::GoalHandle goal) {
   if (goal_ && goal == *goal_) decision_.preempt();
 }
 
+// Asked of the planner, until the tick at which it has answered.
+void SkillAction::decide_pending(const Progress& progress) {
+  if (decision_.is_asking()) return;
+  pending_ = false;
+  if (progress.refusal.empty()) {
+    goal_->setAccepted();
+    return;
+  }
+  const bool recalled = goal_->getGoalStatus().status == actionlib_msgs::GoalStatus::RECALLING;
+  const auto result = result_of(recalled ? Result::PREEMPTED : Result::REFUSED, progress.refusal);
+  if (recalled) {
+    goal_->setCanceled(result, progress.refusal);
+  } else {
+    ROS_WARN("goal of execute_skill refused: %s", progress.refusal.c_str());
+    goal_->setRejected(result, progress.refusal);
+  }
+  goal_.reset();
+}
+
 void SkillAction::update(const Progress& progress) {
-  if (!goal_) return;
+  if (goal_ && pending_) decide_pending(progress);
+  if (!goal_ || pending_) return;
   give_feedback(progress);
   if (progress.state == State::kDone) {
     goal_->setSucceeded(result_of(Result::DONE, progress.reason), progress.reason);
@@ -109,8 +119,10 @@ void SkillAction::give_up(const Progress& progress) {
 void SkillAction::end_run() {
   if (!goal_) return;
   const std::string text = "the data's clock went back: new run";
-  goal_->setAborted(result_of(Result::RUN_ENDED, text), text);
+  const auto result = result_of(Result::RUN_ENDED, text);
+  pending_ ? goal_->setRejected(result, text) : goal_->setAborted(result, text);
   goal_.reset();
+  pending_ = false;
 }
 
 void SkillAction::give_feedback(const Progress& progress) {

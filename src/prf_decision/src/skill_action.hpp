@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private: the action execute_skill. A goal orders one execution from the decision; it takes effect
-// with the next tick that is processed. One goal at a time: others are rejected with the reason.
+// with the next tick that is processed. One goal at a time: others are rejected with the reason. A
+// goal that names a demonstration is pending until the planner has taken that up or refused it.
 //
 // A cancelled goal stops the execution at the next tick; the arm brakes within its limits, and the
 // goal is PREEMPTED once the arm stands, at the latest kMaxBraking of data time later.
@@ -19,8 +20,7 @@ namespace prf_decision {
 
 class SkillAction {
  public:
-  // `demonstration`: the file that the planner has, empty if not known.
-  SkillAction(const ros::NodeHandle& node, Decision& decision, const std::string& demonstration);
+  SkillAction(const ros::NodeHandle& node, Decision& decision);
 
   // Once all else of the node is ready.
   void start() { server_.start(); }
@@ -36,13 +36,14 @@ class SkillAction {
   void on_goal(Server::GoalHandle goal);
   void on_cancel(Server::GoalHandle goal);
   [[nodiscard]] std::string refusal(const prf_msgs::ExecuteSkillGoal& goal) const;
+  void decide_pending(const Progress& progress);
   void give_feedback(const Progress& progress);
   void give_up(const Progress& progress);
 
   Decision& decision_;
-  std::string demonstration_;
   bool arm_moves_ = false;
   std::optional<Server::GoalHandle> goal_;
+  bool pending_ = false;
   std::optional<Stamp> stopped_;
   std::optional<Stamp> feedback_given_;
   State feedback_state_ = State::kWaiting;

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "scenario.hpp"
 
@@ -39,11 +41,12 @@ class World {
       tick.forecasts.push_back({seen->stamp, seen});
     }
     if (count_ % 3 == 1 && answers && !plan_stale) {
-      tick.answer = PlanAnswer{now_ - kTickPeriod, plan, plan ? "" : "no solution"};
+      tick.answer = answer();
     }
     ++count_;
     now_ += kTickPeriod;
     const Outcome outcome = decision_.update(tick);
+    wanted_ = outcome.progress.demonstration;
     check_continuity(outcome);
     return outcome;
   }
@@ -80,8 +83,19 @@ class World {
   bool plan_stale = false;
   bool answers = true;
   std::shared_ptr<const Trajectory> plan = std::make_shared<Trajectory>(straight_skill());
+  std::map<std::string, std::shared_ptr<const Trajectory>> others;  // by demonstration
 
  private:
+  PlanAnswer answer() const {
+    PlanAnswer result{now_ - kTickPeriod, plan, plan ? "" : "no solution", wanted_.number, false};
+    if (wanted_.name.empty()) return result;
+    const auto found = others.find(wanted_.name);
+    result.refused = found == others.end();
+    result.plan = result.refused ? nullptr : found->second;
+    if (!result.plan) result.message = result.refused ? "no such file" : "no solution";
+    return result;
+  }
+
   void check_continuity(const Outcome& outcome) {
     if (!outcome.setpoint) return;
     const Eigen::Vector3d& at = outcome.setpoint->pose.position;
@@ -98,6 +112,7 @@ class World {
   Stamp now_ = std::chrono::seconds(50);
   Stamp last_seen_{0};
   int count_ = 0;
+  NamedDemonstration wanted_;
   std::optional<Eigen::Vector3d> setpoint_;
 };
 

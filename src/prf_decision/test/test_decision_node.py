@@ -17,6 +17,7 @@ from trajectory_msgs.msg import MultiDOFJointTrajectory
 FRAME = "j2s7s300_link_base"
 PIPELINE_DELAY = 60  # ms
 NODES = 11
+MISSING = "missing.csv"  # a demonstration that the planner refuses
 
 
 def stamp(ms):
@@ -56,6 +57,10 @@ def trajectory(progress):
     message = SkillTrajectory(status=SkillTrajectory.SOLVED, planner="test")
     message.header = progress.header
     message.forecast_stamp = progress.forecast_stamp
+    message.handover = progress.handover
+    if progress.demonstration == MISSING:
+        message.status, message.message = SkillTrajectory.REFUSED, f"{MISSING}: cannot be read"
+        return message
     message.poses = [pose(0.3 + 0.03 * i) for i in range(NODES)]
     message.time_from_start = [rospy.Duration(0.1 * i) for i in range(NODES)]
     message.goal_in_target = pose(-0.4)

@@ -34,7 +34,7 @@ class DecisionRefusals(unittest.TestCase):
     def setUp(self):
         with open(CONFIG, encoding="utf-8") as file:
             self.valid = yaml.safe_load(file)
-        self.valid.update(framework=True, autostart=True, demonstration="", hmm_file=HMM)
+        self.valid.update(framework=True, autostart=True, hmm_file=HMM)
 
     def assert_refused(self, catalogue):
         """Each of (parameters, what the refusal must say)."""
@@ -73,7 +73,6 @@ class DecisionRefusals(unittest.TestCase):
             ("max_target_speed", infinity, "max_target_speed is inf, must be > 0"),
             ("framework", "yes", "framework = yes, must be true or false"),
             ("autostart", 1, "autostart = 1, must be true or false"),
-            ("demonstration", 2.0, "demonstration"),
             ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
             ("speed", 1.0, "speed = 1, must be absent"),
         ]

@@ -31,7 +31,7 @@ class SkillAction(unittest.TestCase):
         cls.world = test_decision_node.World()
         cls.client = actionlib.ActionClient("execute_skill", ExecuteSkillAction)
         assert cls.client.wait_for_server(rospy.Duration(PATIENCE))
-        cls.epoch = 1000000  # ms; each run begins before the one before it
+        cls.epoch = 3000000  # ms; each run begins before the one before it
 
     def setUp(self):
         type(self).epoch -= 100000
@@ -70,7 +70,7 @@ class SkillAction(unittest.TestCase):
         progress = self.play(0.5)
         self.assertEqual((progress.state, progress.reason),
                          (ExecutionProgress.WAITING, "no goal yet"))
-        handle = self.begin(demonstration="inspect_box.csv", hold_time=rospy.Duration(0.5))
+        handle = self.begin(hold_time=rospy.Duration(0.5))
         self.assertEqual(self.play(3).state, ExecutionProgress.DONE)
         state, result = self.result(handle)
         self.assertEqual((state, result.code), (GoalStatus.SUCCEEDED, ExecuteSkillResult.DONE))
@@ -143,12 +143,9 @@ class SkillAction(unittest.TestCase):
 
     def test_rejects_what_it_cannot_do(self):
         first = self.begin()
-        for goal, reason in ((dict(demonstration="other.csv"), "'other.csv' is not loaded"),
-                             (dict(), "an execution is under way")):
-            state, result = self.result(self.begin(**goal))
-            self.assertEqual((state, result.code),
-                             (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
-            self.assertIn(reason, result.text)
+        state, result = self.result(self.begin())
+        self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
+        self.assertIn("an execution is under way", result.text)
         self.play(0.5)
         type(self).epoch -= 100000  # another run begins: the goal of this one is over
         self.world.begin(self.epoch)
@@ -157,6 +154,48 @@ class SkillAction(unittest.TestCase):
         self.assertEqual(self.result(first)[1].code, ExecuteSkillResult.RUN_ENDED)
         state, result = self.result(self.begin(time_limit=rospy.Duration(-1)))
         self.assertIn("time_limit is -1.000000, must be >= 0", result.text)
+        state, result = self.result(self.begin(resume=True, demonstration="side.csv"))
+        self.assertIn("demonstration is 'side.csv', must be empty with resume", result.text)
+
+    def ask(self, **goal):
+        """A goal that the server has seen but the planner has not answered yet."""
+        handle = self.client.send_goal(ExecuteSkillGoal(**goal))
+        self.wait(lambda: handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK)
+        self.assertEqual(handle.get_goal_status(), GoalStatus.PENDING)
+        return handle
+
+    def test_asks_the_planner_for_the_demonstration_that_a_goal_names(self):
+        handle = self.ask(demonstration="side.csv", hold_time=rospy.Duration(0.5))
+        progress = self.play(0.1)
+        self.assertEqual((progress.demonstration, progress.handover), ("side.csv", 1))
+        self.wait(lambda: handle.get_goal_status() == GoalStatus.ACTIVE)
+        self.play(3)
+        self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
+
+        handle = self.ask(demonstration=test_decision_node.MISSING)
+        self.play(0.1)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
+        self.assertEqual(result.text, "missing.csv: cannot be read")
+        progress = self.play(0.1)
+        self.assertEqual((progress.demonstration, progress.handover), ("side.csv", 1))
+        self.assertEqual(progress.state, ExecutionProgress.DONE)
+
+    def test_recalls_a_goal_that_the_planner_has_not_answered_and_ends_it_with_the_run(self):
+        handle = self.ask(demonstration="side.csv")
+        handle.cancel()
+        self.wait(lambda: handle.get_goal_status() == GoalStatus.RECALLING)
+        self.play(0.01)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code),
+                         (GoalStatus.RECALLED, ExecuteSkillResult.PREEMPTED))
+        handle = self.ask(demonstration="side.csv")
+        type(self).epoch -= 100000
+        self.world.begin(self.epoch)
+        self.now = 0
+        self.play(0.1)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.RUN_ENDED))
 
     def command(self, *arguments):
         self.wait(lambda: self.client.pub_goal.get_num_connections() == 1)
@@ -193,9 +232,15 @@ class SkillAction(unittest.TestCase):
             self.assertIn("PREEMPTED", out)
 
     def test_command_exits_with_2_when_refused(self):
-        with self.command("--demonstration", "other.csv") as refused:
-            refused.communicate(timeout=PATIENCE)
-            self.assertEqual(refused.returncode, 2)
+        with self.command("--demonstration", test_decision_node.MISSING) as refused:
+            for _ in range(600):
+                self.play(0.05)
+                if refused.poll() is not None:
+                    break
+                rospy.rostime.wallsleep(0.05)
+            out, error = refused.communicate(timeout=PATIENCE)
+            self.assertEqual(refused.returncode, 2, error)
+            self.assertIn("REFUSED: missing.csv: cannot be read", out)
 
 
 if __name__ == "__main__":

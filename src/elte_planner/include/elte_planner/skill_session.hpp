@@ -33,11 +33,22 @@ struct Forecast {
   std::vector<TargetPrediction> predictions;  // horizons strictly rising
 };
 
+// Which demonstration an execution is to follow, see FollowedSkill.
+struct WantedSkill {
+  std::string demonstration;  // a path, absolute or beside the first one; empty: the first one
+  std::uint32_t handover = 0;
+
+  bool operator==(const WantedSkill& other) const {
+    return demonstration == other.demonstration && handover == other.handover;
+  }
+};
+
 struct Progress {
   std::int64_t stamp = 0;           // ns
   std::int64_t forecast_stamp = 0;  // ns, of the forecast in force; 0 for none
   Eigen::Index frozen = 0;          // leading nodes that must not move
   double time_to_go = 0.0;          // s from the cursor to the last node
+  WantedSkill wanted = {};
 };
 
 struct SessionParams {

@@ -13,6 +13,7 @@
 #include "prf_decision/approach.hpp"
 #include "prf_decision/decision_fsm.hpp"
 #include "prf_decision/guards.hpp"
+#include "prf_decision/handover.hpp"
 #include "prf_decision/hmm.hpp"
 #include "prf_decision/motion.hpp"
 #include "prf_decision/setpoint_limiter.hpp"
@@ -40,9 +41,10 @@ struct DecisionParameters {
 
 // What an execution is asked for.
 struct Order {
-  Duration time_limit{0};  // 0: as in the parameters
-  Duration hold_time{0};   // 0: as in the parameters
-  bool resume = false;     // from where the cursor stands; else back to the start first
+  Duration time_limit{0};          // 0: as in the parameters
+  Duration hold_time{0};           // 0: as in the parameters
+  bool resume = false;             // from where the cursor stands; else back to the start first
+  std::string demonstration = {};  // as the planner takes it; empty: the one taken up before
 
   void validate() const;
 };
@@ -60,6 +62,8 @@ struct Progress {
   Event cause = Event::kCalm;           // that led into the state
   std::optional<double> goal_distance;  // set-point to where the skill ends now, m
   std::optional<double> axis_distance;  // the same to the line along which the hand arrives there
+  NamedDemonstration demonstration;     // that the planner shall follow
+  std::string refusal;                  // why the one asked for is no longer, at this tick
 };
 
 struct Outcome {
@@ -74,9 +78,12 @@ class Decision {
 
   [[nodiscard]] Outcome update(const Tick& tick);
 
-  // An execution can be ordered when none is under way. It begins with the next tick.
+  // An execution can be ordered when none is under way. It begins with the next tick; one that
+  // names a demonstration at the tick at which the planner has taken that up, or not at all: see
+  // Progress::refusal.
   [[nodiscard]] bool can_begin() const;
   void begin(const Order& order);
+  [[nodiscard]] bool is_asking() const { return handover_.is_asking(); }
 
   // Other parameters from the next tick on; framework, autostart and the HMM stay as they are.
   void tune(const DecisionParameters& parameters);
@@ -91,15 +98,25 @@ class Decision {
     bool objected;  // a guard spoke, not the HMM
   };
 
+  // A plan with what it was made for.
+  struct Planned {
+    std::shared_ptr<const Trajectory> plan;
+    Stamp stamp{0};
+    std::shared_ptr<const Forecast> forecast;
+  };
+
   void begin_execution(Stamp stamp);
   void take_in(const Tick& tick);
-  void take_plan(const PlanAnswer& answer);
+  void take_answer(const PlanAnswer& answer);
+  void adopt(const Planned& planned);
+  void take_over_when_at_the_start();
+  void stop_asking(Stamp stamp);
   [[nodiscard]] std::optional<Objection> object_to_target(const Tick& tick) const;
   [[nodiscard]] std::optional<Objection> object(const Tick& tick) const;
   [[nodiscard]] Assessment assess(const Tick& tick) const;
   void change_state(const Tick& tick, const Assessment& assessment);
   [[nodiscard]] bool try_event(Stamp stamp, Event event, const std::string& reason);
-  [[nodiscard]] MovingPose goal_at(Stamp stamp) const;
+  [[nodiscard]] const std::shared_ptr<const Trajectory>& newest_plan() const;
   void follow_target(const Tick& tick);
   [[nodiscard]] bool is_bound_to_target() const;
   [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
@@ -113,16 +130,19 @@ class Decision {
   State state_ = State::kWaiting;
   Event cause_ = Event::kCalm;
   std::string reason_;
-  std::optional<Order> order_;      // that begins with the next tick
+  std::optional<Order> order_;      // that is to begin
   std::optional<Order> execution_;  // under way or ended
   bool preempted_ = false;
-  bool rewinding_ = false;  // the cursor goes back to the start first
+  bool rewinding_ = false;  // the cursor, then the hand, goes back to the start first
   Stamp begun_{0};          // the execution
   std::optional<Stamp> last_tick_;
   Stamp entered_{0};  // when the state was entered
   std::shared_ptr<const Forecast> forecast_;
   std::shared_ptr<const Trajectory> plan_;
-  Approach approach_;                        // of plan_
+  Handover handover_;
+  Planned next_;         // of the demonstration taken up, until it comes into force
+  std::string refusal_;  // of this tick
+  Approach approach_;    // of plan_
   std::optional<MovingPose> approached_;     // the target that it follows
   std::optional<std::string> plan_refusal_;  // the planner's last answer had no plan
   std::optional<Stamp> last_seen_;           // last measurement of the target

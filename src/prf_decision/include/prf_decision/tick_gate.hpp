@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -34,6 +35,8 @@ struct PlanAnswer {
   Stamp stamp{0};  // of the progress answered
   std::shared_ptr<const Trajectory> plan;
   std::string message;
+  std::uint32_t handover = 0;  // number of the demonstration that was wanted
+  bool refused = false;        // that one cannot be followed
 };
 
 // A predictor's message: null forecast when it was refused on arrival.

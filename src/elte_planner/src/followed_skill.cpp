@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elte_planner/followed_skill.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace elte_planner {
+
+FollowedSkill::FollowedSkill(const SessionParams& params, const std::string& demonstration,
+                             const std::string& frame)
+    : params_(params), first_(demonstration), frame_(frame) {
+  load(first_);
+}
+
+void FollowedSkill::load(const std::string& file) {
+  const auto type = std::filesystem::status(file).type();
+  if (type != std::filesystem::file_type::regular &&
+      type != std::filesystem::file_type::not_found) {
+    throw std::invalid_argument(file + ": is no file");
+  }
+  const Demonstration demonstration = load_demonstration(file);
+  if (demonstration.frame() != frame_) {
+    throw std::invalid_argument("frame is '" + frame_ + "', must be '" + demonstration.frame() +
+                                "' as in " + file);
+  }
+  session_ = std::make_unique<SkillSession>(params_, demonstration);
+  file_ = file;
+}
+
+std::optional<std::string> FollowedSkill::follow(const WantedSkill& wanted) {
+  if (wanted == followed_) {
+    refusal_.reset();
+    return std::nullopt;
+  }
+  if (refusal_ && refusal_->wanted == wanted) return refusal_->reason;
+  const auto beside_first = std::filesystem::path(first_).parent_path();
+  try {
+    load(wanted.demonstration.empty() ? first_ : (beside_first / wanted.demonstration).string());
+  } catch (const std::invalid_argument& error) {
+    refusal_ = Refusal{wanted, error.what()};
+    return error.what();
+  }
+  followed_ = wanted;
+  refusal_.reset();
+  return std::nullopt;
+}
+
+}  // namespace elte_planner
