@@ -110,6 +110,30 @@ double approach_speed(double distance, double deceleration, double dt) {
   return (n + f) * deceleration * dt;
 }
 
+VelocityRange allowed_velocities(const MotionState& state, double dt, const MotionLimits& limits) {
+  check(state, "state");
+  check_dt(dt);
+  VelocityRange range;
+  for (int i = 0; i < range.lower.size(); ++i) {
+    const double v = state.velocity[i];
+    const double dv = limits.acceleration[i] * dt;
+    double lower = std::max(-limits.velocity[i], v - dv);
+    double upper = std::min(limits.velocity[i], v + dv);
+    if (lower > upper) lower = upper = v > 0 ? v - dv : v + dv;
+    const double q = state.position[i];
+    const double up = braking_bound(limits.upper[i] - q, limits.acceleration[i], dt);
+    const double down = braking_bound(q - limits.lower[i], limits.acceleration[i], dt);
+    range.lower[i] = std::clamp(lower, -down, up);
+    range.upper[i] = std::clamp(upper, -down, up);
+  }
+  return range;
+}
+
+MotionState moved(const MotionState& state, const JointVector& velocity, double dt,
+                  const MotionLimits& limits) {
+  return {(state.position + velocity * dt).cwiseMax(limits.lower).cwiseMin(limits.upper), velocity};
+}
+
 LimitedStep step_toward(const MotionState& state, const MotionState& goal, double dt,
                         const MotionLimits& limits) {
   check(state, "state");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "prf_control/hand_velocity.hpp"
 #include "prf_control/nearest_pose.hpp"
 
 namespace prf_control {
@@ -16,6 +17,12 @@ using jaco_v60_description::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kArrived = 0.02;  // [rad] of every joint: the change of branch is over
+
+// What the limits have cost is made good at this rate at most, and with no more than this
+// acceleration of the hand, so that the joints can brake in time.
+constexpr double kCatchUpRate = 12.0;         // [1/s]
+constexpr double kCatchUpAcceleration = 1.0;  // [m/s^2]
+constexpr double kPostureRate = 2.0;          // [1/s] of the joints toward those of the goal
 
 void check(const char* name, double value, double bound, const char* unit) {
   if (!(std::isfinite(value) && value > 0.0 && value <= bound)) {
@@ -88,6 +95,7 @@ void SetpointFollower::forget_set_points() {
   last_pose_.reset();
   refused_for_ = 0;
   changes_branch_ = false;
+  transfers_ = false;
 }
 
 FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
@@ -99,6 +107,10 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
   MotionLimits limits = limits_;
   if (goal.kind == GoalKind::kChangesBranch) limits.velocity *= kBranchChangeSpeed;
   step.motion = step_toward(state(), goal.motion, dt, limits);
+  transfers_ = transfers_ && step.motion.limit != Limit::kNone;
+  if (goal.kind == GoalKind::kExact && !transfers_ && step.motion.limit != Limit::kNone) {
+    step.motion.state = hand_step(setpoint, goal.motion, dt);
+  }
   const ErrorVector deviation =
       pose_error(jaco_v60_description::forward(step.motion.state.position), setpoint.hand_in_base);
   step.position_deviation = deviation.head<3>().norm();
@@ -118,19 +130,46 @@ FollowerStep SetpointFollower::hold(double dt) {
   return step;
 }
 
+MotionState SetpointFollower::hand_step(const PoseSetpoint& setpoint, const MotionState& goal,
+                                        double dt) const {
+  const JointVector& q = state().position;
+  const ErrorVector error = pose_error(jaco_v60_description::forward(q), moved_back(setpoint, dt));
+  ErrorVector twist;
+  twist << setpoint.linear_velocity, setpoint.angular_velocity;
+  const double size =
+      std::hypot(error.head<3>().norm(), params_.orientation_weight * error.tail<3>().norm());
+  const double rate = std::min(kCatchUpRate, std::sqrt(2.0 * kCatchUpAcceleration / size));
+  const JointVector posture_velocity =
+      goal.velocity + kPostureRate * (goal.position - goal.velocity * dt - q);
+  const JointVector velocity =
+      hand_velocity({jaco_v60_description::jacobian(q), twist + rate * error,
+                     posture_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
+                     params_.orientation_weight},
+                    allowed_velocities(state(), dt, limits_));
+  return moved(state(), velocity, dt, limits_);
+}
+
 SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoint, double dt) {
   const Eigen::Isometry3d& pose = setpoint.hand_in_base;
   const bool far = is_far(pose);
+  transfers_ = transfers_ || far;
   const JointVector reference = far || !goal_ ? state().position : *goal_;
+  const auto jumps = [&](const JointVector& q) {
+    return (q - reference).cwiseAbs().maxCoeff() > params_.max_joint_step;
+  };
 
-  const IkResult solution = jaco_v60_description::inverse(pose, reference);
+  // An arm that lags behind its goal is better served by the solution nearest to where it is.
+  IkResult solution = jaco_v60_description::inverse(pose, state().position);
+  if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
+    solution = jaco_v60_description::inverse(pose, reference);
+  }
   const bool solved = solution.status == IkStatus::kSolved;
   const JointVector q =
       solved ? solution.q : nearest_pose(pose, reference, params_.orientation_weight);
 
   int joint = 0;
   const double jump = (q - reference).cwiseAbs().maxCoeff(&joint);
-  const bool refused = !far && jump > params_.max_joint_step;
+  const bool refused = !far && jumps(q);
   refused_for_ = refused ? refused_for_ + dt : 0;
   if (refused && refused_for_ < params_.branch_patience) {
     const JointVector crept = damped_step(pose, reference, dt);

@@ -29,6 +29,20 @@ struct MotionState {
   JointVector velocity = JointVector::Zero();  // [rad/s]
 };
 
+struct VelocityRange {
+  JointVector lower;  // [rad/s]
+  JointVector upper;  // [rad/s]
+};
+
+// The velocities that one period may end with: within all limits, and slow enough to brake before
+// the position limits. A joint that is too fast already may only brake.
+[[nodiscard]] VelocityRange allowed_velocities(const MotionState& state, double dt,
+                                               const MotionLimits& limits);
+
+// The state after one period at a velocity out of that range.
+[[nodiscard]] MotionState moved(const MotionState& state, const JointVector& velocity, double dt,
+                                const MotionLimits& limits);
+
 enum class Limit { kNone, kAcceleration, kVelocity, kPosition };
 
 struct LimitedStep {

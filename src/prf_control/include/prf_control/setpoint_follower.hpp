@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a moving pose of the hand to joint positions and velocities, one control period at a time.
 //
-//   goal      q_g = inverse(T), the solution nearest to the last goal;
+//   goal      q_g = inverse(T), the solution nearest to the joints as they are;
 //             T out of reach: the nearest pose (nearest_pose.hpp);
 //             a jump of a joint by more than max_joint_step, though T moved little (a change of
 //             branch): refused, the goal takes a damped step along the Jacobian instead; refused
 //             for branch_patience without a break: made after all, at kBranchChangeSpeed
 //   velocity  dq_g = (q_g - inverse(T moved back by its twist)) / dt
-//   command   the step of joint_motion.hpp toward (q_g, dq_g)
+//   command   the step of joint_motion.hpp toward (q_g, dq_g); where a limit would shape it, the
+//             joints that are left keep the hand on its way (hand_velocity.hpp), but for a
+//             set-point far from the last one, to which all joints go together
 //
 // The follower's own last command is its state; it starts from measured joints, at rest. A
 // set-point reached within the limits is met exactly: forward(command) = T.
@@ -81,6 +83,7 @@ class SetpointFollower {
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
   void forget_set_points();
+  MotionState hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
   JointVector damped_step(const Eigen::Isometry3d& hand_in_base, const JointVector& from,
                           double dt) const;
@@ -93,6 +96,7 @@ class SetpointFollower {
   std::optional<Eigen::Isometry3d> last_pose_;  // the last set-point, none after a hold
   double refused_for_ = 0;                      // [s], a change of branch, without a break
   bool changes_branch_ = false;
+  bool transfers_ = false;  // toward a set-point that was far from the one before
 };
 
 }  // namespace prf_control

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_control/hand_velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prf_control {
+namespace {
+
+// [m^2/rad^2] Joint motions that move the hand by less than 0.1 m/rad belong to the posture: near a
+// singularity they would be fast and gain nothing.
+constexpr double kPostureWeight = 0.01;
+
+constexpr int kMaxSweeps = 1000;
+constexpr double kConverged = 1e-10;  // [rad/s]
+
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+// Coordinate descent on v^T H v / 2 - g^T v, which converges from anywhere as H is definite.
+JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const VelocityRange& range) {
+  JointVector v = H.ldlt().solve(g).cwiseMax(range.lower).cwiseMin(range.upper);
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    double change = 0.0;
+    for (int i = 0; i < v.size(); ++i) {
+      const double best = v[i] + (g[i] - H.row(i).dot(v)) / H(i, i);
+      const double next = std::clamp(best, range.lower[i], range.upper[i]);
+      change = std::max(change, std::abs(next - v[i]));
+      v[i] = next;
+    }
+    if (change < kConverged) break;
+  }
+  return v;
+}
+
+}  // namespace
+
+JointVector hand_velocity(const HandRequest& request, const VelocityRange& range) {
+  Twist weight;
+  weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(request.orientation_weight);
+  const jaco_v60_description::Jacobian A = weight.asDiagonal() * request.jacobian;
+  const Matrix7 H = A.transpose() * A + kPostureWeight * Matrix7::Identity();
+  const JointVector g = A.transpose() * weight.cwiseProduct(request.twist) +
+                        kPostureWeight * request.posture_velocity;
+  return bounded_minimum(H, g, range);
+}
+
+}  // namespace prf_control
