@@ -47,12 +47,12 @@ inline prf_msgs::TargetPrediction to_message(const Prediction& prediction) {
   prf_msgs::TargetPrediction message;
   message.horizon.fromSec(prediction.horizon);
   assign(message.pose.position, prediction.point.position);
-  message.pose.orientation.x = prediction.orientation.x();
-  message.pose.orientation.y = prediction.orientation.y();
-  message.pose.orientation.z = prediction.orientation.z();
-  message.pose.orientation.w = prediction.orientation.w();
+  message.pose.orientation.x = prediction.rotation.orientation.x();
+  message.pose.orientation.y = prediction.rotation.orientation.y();
+  message.pose.orientation.z = prediction.rotation.orientation.z();
+  message.pose.orientation.w = prediction.rotation.orientation.w();
   assign(message.twist.linear, prediction.point.velocity);
-  assign(message.twist.angular, prediction.rate);
+  assign(message.twist.angular, prediction.rotation.rate);
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data()) =
       prediction.point.covariance;
   return message;

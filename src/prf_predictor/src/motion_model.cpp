@@ -37,15 +37,14 @@ double VelocityDecay::prior_variance() const {
   return std::min(1.0, 0.5 * spectral_density * time_constant);
 }
 
-void validate(const VelocityDecay& decay, const std::string& density,
-              const std::string& time_constant) {
-  require(decay.spectral_density > 0 && std::isfinite(decay.spectral_density), density,
-          decay.spectral_density, "finite and > 0");
-  require(decay.time_constant > 0, time_constant, decay.time_constant, "> 0 s");
+void validate(const VelocityDecay& decay) {
+  require(decay.spectral_density > 0 && std::isfinite(decay.spectral_density),
+          "acceleration_density", decay.spectral_density, "finite and > 0");
+  require(decay.time_constant > 0, "velocity_time_constant", decay.time_constant, "> 0 s");
 }
 
 DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) {
-  validate(decay, "acceleration_density");
+  validate(decay);
 }
 
 Eigen::VectorXd DecayingVelocity::advance(const Eigen::VectorXd& state, double dt) const {

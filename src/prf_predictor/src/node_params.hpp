@@ -63,10 +63,9 @@ inline NodeParams load(const ros::NodeHandle& private_node) {
   params.predictor = load_predictor(parameters);
   params.measurement_scale = parameters.number("measurement_scale");
   params.defaults = {parameters.number("position_sigma"), parameters.number("orientation_sigma")};
-  params.tracker.rotation = {parameters.number("angular_acceleration_density"),
-                             parameters.number("angular_velocity_time_constant")};
   params.tracker.gate_probability = parameters.number("gate_probability");
   params.tracker.gate_sigma = parameters.number("gate_sigma");
+  params.tracker.orientation_gate_sigma = parameters.number("orientation_gate_sigma");
   params.tracker.reacquire_hits = parameters.integer("reacquire_hits");
   params.tracker.coast_after = parameters.number("coast_after");
   params.tracker.lost_after = parameters.number("lost_after");

@@ -6,18 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "prf_predictor/gaussian.hpp"
 #include "require.hpp"
 
 namespace prf_predictor {
 namespace {
 
 double seconds(Nanoseconds duration) { return 1e-9 * static_cast<double>(duration); }
-
-bool is_finite(const Belief& belief) {
-  return is_finite(belief.motion->forecast(0)) &&
-         belief.orientation.orientation.coeffs().allFinite() &&
-         belief.orientation.rate.allFinite() && belief.orientation.covariance.allFinite();
-}
 
 struct Nearest {
   const TagMeasurement* sight = nullptr;
@@ -44,21 +39,23 @@ Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasureme
   return nearest;
 }
 
-std::shared_ptr<const TargetPredictor> corrected(const TargetPredictor& target,
-                                                 const TagMeasurement& sight) {
-  std::shared_ptr<TargetPredictor> next = target.clone();
-  next->correct(sight.position, sight.position_covariance);
-  return next;
+double squared_distance(const OrientationForecast& expected, const TagMeasurement& sight,
+                        double gate_sigma) {
+  const Eigen::Vector3d residual =
+      rotation_vector((sight.orientation * expected.orientation.conjugate()).normalized());
+  return squared_distance(residual, expected.covariance + sight.orientation_covariance +
+                                        std::pow(gate_sigma, 2) * Eigen::Matrix3d::Identity());
 }
 
 }  // namespace
 
 void validate(const TrackerParams& params) {
-  validate(params.rotation, "angular_acceleration_density", "angular_velocity_time_constant");
   require(params.gate_probability > 0.5 && params.gate_probability < 1, "gate_probability",
           params.gate_probability, "> 0.5 and < 1");
   require(params.gate_sigma >= 0 && std::isfinite(params.gate_sigma), "gate_sigma",
           params.gate_sigma, "finite and >= 0 m");
+  require(params.orientation_gate_sigma >= 0 && std::isfinite(params.orientation_gate_sigma),
+          "orientation_gate_sigma", params.orientation_gate_sigma, "finite and >= 0 rad");
   require(params.reacquire_hits >= 2, "reacquire_hits", params.reacquire_hits, ">= 2");
   require(params.coast_after > 0 && std::isfinite(params.coast_after), "coast_after",
           params.coast_after, "finite and > 0 s");
@@ -72,6 +69,18 @@ TargetTracker::TargetTracker(const TrackerParams& params,
   validate(params);
   require(predictor_ != nullptr, "predictor", "null", "given");
   gate_ = chi_square_quantile_3(params.gate_probability);
+}
+
+TargetTracker::Moving::Moving(const Belief& before, double dt)
+    : motion(before.motion->clone()),
+      rotation(std::make_unique<RotationPredictor>(*before.rotation)) {
+  motion->advance(dt);
+  rotation->advance(dt);
+}
+
+bool TargetTracker::Moving::is_finite() const {
+  return prf_predictor::is_finite(motion->forecast(0)) &&
+         prf_predictor::is_finite(rotation->forecast(0));
 }
 
 TargetTracker::Answer TargetTracker::process(Nanoseconds stamp,
@@ -118,50 +127,54 @@ TrackState TargetTracker::step(const TrackState& before, Nanoseconds stamp,
 
   const bool is_lost = seconds(stamp - state.last_accepted) > params_.lost_after;
   if (state.belief && !is_lost) {
-    state.belief = advanced(*state.belief, seconds(stamp - before.stamp));
-    if (!is_finite(*state.belief)) {
-      state.belief.reset();
-      state.reinitialised = true;
+    Moving target(*state.belief, seconds(stamp - before.stamp));
+    state.reinitialised = !target.is_finite();
+    state.belief.reset();
+    if (!state.reinitialised) {
+      state.measured = accept(target, sights, state);
+      state.belief = Belief{std::move(target.motion), std::move(target.rotation)};
     }
   }
-  if (!state.belief && !sights.empty()) {
-    state.belief = begin(sights.front());
-    state.last_accepted = stamp;
-    state.measured = true;
-  } else if (state.belief && !sights.empty()) {
-    if (!is_lost && accept(state, sights)) {
-      state.candidate.reset();
-    } else {
+  if (!sights.empty() && !state.measured) {
+    if (state.belief) {
       state.gated = true;
       pursue_candidate(state, sights);
+    } else {
+      state.belief = begin(sights.front());
+      state.measured = true;
     }
+  }
+  if (state.measured) {
+    state.last_accepted = stamp;
+    state.candidate.reset();
   }
   settle_status(state);
   return state;
 }
 
 Belief TargetTracker::begin(const TagMeasurement& sight) const {
-  std::shared_ptr<TargetPredictor> motion = predictor_->clone();
+  std::unique_ptr<TargetPredictor> motion = predictor_->clone();
   motion->begin(sight.position, sight.position_covariance);
-  return {motion,
-          initial_orientation(params_.rotation, sight.orientation, sight.orientation_covariance)};
+  return {std::move(motion), std::make_shared<const RotationPredictor>(
+                                 *predictor_, sight.orientation, sight.orientation_covariance)};
 }
 
-Belief TargetTracker::advanced(const Belief& belief, double dt) const {
-  std::shared_ptr<TargetPredictor> motion = belief.motion->clone();
-  motion->advance(dt);
-  return {motion, predict(belief.orientation, params_.rotation, dt)};
-}
-
-bool TargetTracker::accept(TrackState& state, const std::vector<TagMeasurement>& sights) const {
-  const Nearest nearest = nearest_to(*state.belief->motion, sights, params_.gate_sigma);
+bool TargetTracker::accept(Moving& target, const std::vector<TagMeasurement>& sights,
+                           TrackState& state) const {
+  const Nearest nearest = nearest_to(*target.motion, sights, params_.gate_sigma);
   if (nearest.sight == nullptr) return false;
   state.nis = nearest.nis;
   if (!(nearest.distance <= gate_)) return false;
-  state.belief->motion = corrected(*state.belief->motion, *nearest.sight);
-  state.orientation_gated = !correct_orientation(*state.belief, *nearest.sight);
-  state.last_accepted = state.stamp;
-  state.measured = true;
+  const TagMeasurement& sight = *nearest.sight;
+  target.motion->correct(sight.position, sight.position_covariance);
+
+  const OrientationForecast expected = target.rotation->forecast(0);
+  state.orientation_nis = squared_distance(expected, sight, 0.0);
+  state.orientation_gated =
+      !(squared_distance(expected, sight, params_.orientation_gate_sigma) <= gate_);
+  if (!state.orientation_gated) {
+    target.rotation->correct(sight.orientation, sight.orientation_covariance);
+  }
   return true;
 }
 
@@ -170,11 +183,10 @@ void TargetTracker::pursue_candidate(TrackState& state,
   auto& candidate = state.candidate;
   if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
   if (candidate) {
-    candidate->belief = advanced(candidate->belief, seconds(state.stamp - candidate->stamp));
-    const Nearest nearest = nearest_to(*candidate->belief.motion, sights, params_.gate_sigma);
-    if (nearest.sight != nullptr && nearest.distance <= gate_) {
-      candidate->belief.motion = corrected(*candidate->belief.motion, *nearest.sight);
-      (void)correct_orientation(candidate->belief, *nearest.sight);
+    Moving target(candidate->belief, seconds(state.stamp - candidate->stamp));
+    TrackState of_candidate;
+    if (accept(target, sights, of_candidate)) {
+      candidate->belief = {std::move(target.motion), std::move(target.rotation)};
       candidate->stamp = state.stamp;
       ++candidate->hits;
     } else {
@@ -185,19 +197,9 @@ void TargetTracker::pursue_candidate(TrackState& state,
   if (candidate->hits < params_.reacquire_hits) return;
 
   state.belief = candidate->belief;
-  state.last_accepted = state.stamp;
   state.measured = true;
   state.gated = false;
   state.reacquired = true;
-  candidate.reset();
-}
-
-bool TargetTracker::correct_orientation(Belief& belief, const TagMeasurement& sight) const {
-  const auto innovation =
-      innovate(belief.orientation, sight.orientation, sight.orientation_covariance);
-  if (!(innovation.nis <= gate_)) return false;
-  belief.orientation = correct(belief.orientation, innovation);
-  return true;
 }
 
 void TargetTracker::settle_status(TrackState& state) const {
@@ -216,9 +218,8 @@ std::vector<Prediction> TargetTracker::forecast(const TrackState& state,
   std::vector<Prediction> predictions;
   if (!state.belief) return predictions;
   for (const double horizon : horizons) {
-    const OrientationBelief ahead = predict(state.belief->orientation, params_.rotation, horizon);
-    predictions.push_back(
-        {horizon, state.belief->motion->forecast(horizon), ahead.orientation, ahead.rate});
+    predictions.push_back({horizon, state.belief->motion->forecast(horizon),
+                           state.belief->rotation->forecast(horizon)});
   }
   return predictions;
 }

@@ -23,9 +23,9 @@ const Eigen::Vector3d kHome(0.9, 0.05, 0.3);
 
 TrackerParams good_params() {
   TrackerParams params;
-  params.rotation = {0.03, 0.6};
   params.gate_probability = 0.9999;
   params.gate_sigma = 0.005;
+  params.orientation_gate_sigma = 0.015;
   params.reacquire_hits = 5;
   params.coast_after = 0.15;
   params.lost_after = 1.0;
@@ -40,6 +40,10 @@ TargetTracker make_tracker(VelocityDecay motion = {0.03, 0.6}) {
 
 Eigen::Vector3d position_of(const TrackState& state) {
   return state.belief->motion->forecast(0).position;
+}
+
+Eigen::Quaterniond orientation_of(const TrackState& state) {
+  return state.belief->rotation->forecast(0).orientation;
 }
 
 double variance_of(const TrackState& state) {
@@ -69,8 +73,8 @@ bool same(const TrackState& a, const TrackState& b) {
   return a.stamp == b.stamp && a.status == b.status && a.nis == b.nis && a.measured == b.measured &&
          a.belief.has_value() == b.belief.has_value() &&
          (!a.belief || (position_of(a) == position_of(b) && variance_of(a) == variance_of(b) &&
-                        a.belief->orientation.orientation.coeffs() ==
-                            b.belief->orientation.orientation.coeffs()));
+                        orientation_of(a).coeffs() ==
+                            orientation_of(b).coeffs()));
 }
 
 TEST(TargetTracker, KnowsNoTargetUntilOneIsSeen) {
@@ -206,7 +210,7 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   EXPECT_TRUE(state.measured);
   EXPECT_TRUE(state.orientation_gated);
   EXPECT_GT(position_of(state).x(), kHome.x());
-  EXPECT_LT(rotation_vector(state.belief->orientation.orientation).norm(), 1e-3);
+  EXPECT_LT(rotation_vector(orientation_of(state)).norm(), 1e-3);
 }
 
 TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {
@@ -288,8 +292,7 @@ TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
     void (*spoil)(TrackerParams&);
   };
   const BadValue catalogue[] = {
-      {"angular_acceleration_density", [](TrackerParams& p) { p.rotation.spectral_density = 0; }},
-      {"angular_velocity_time_constant", [](TrackerParams& p) { p.rotation.time_constant = NAN; }},
+      {"orientation_gate_sigma", [](TrackerParams& p) { p.orientation_gate_sigma = NAN; }},
       {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
       {"gate_sigma", [](TrackerParams& p) { p.gate_sigma = -1; }},
       {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},

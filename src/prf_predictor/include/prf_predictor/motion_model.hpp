@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 #include "prf_predictor/gaussian.hpp"
 
@@ -32,7 +31,7 @@ class MotionModel {
 //   p += b v,  v *= a
 //   Q = q [[T^2 (dt - 2 b + T (1 - a^2) / 2), b^2 / 2], [b^2 / 2, T (1 - a^2) / 2]].
 struct VelocityDecay {
-  double spectral_density = 0.0;  // q, (m/s^2)^2 / Hz, > 0; of angles (rad/s^2)^2 / Hz
+  double spectral_density = 0.0;  // q, (m/s^2)^2 / Hz, > 0
   double time_constant = 0.0;     // T, s, > 0, may be infinite
 
   [[nodiscard]] double velocity_factor(double dt) const;  // a
@@ -42,9 +41,8 @@ struct VelocityDecay {
   [[nodiscard]] double prior_variance() const;
 };
 
-// Throws std::invalid_argument naming the value and its bound, by the names given.
-void validate(const VelocityDecay& decay, const std::string& density,
-              const std::string& time_constant = "velocity_time_constant");
+// Throws std::invalid_argument naming the parameter, its value and its bound.
+void validate(const VelocityDecay& decay);
 
 class DecayingVelocity : public MotionModel {
  public:

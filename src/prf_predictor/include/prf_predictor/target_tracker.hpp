@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Follows one target through sights, ghosts and gaps, and says where it will be: the front end of
-// any TargetPredictor, which has the position; the orientation has a filter of its own.
+// any TargetPredictor, one of which has the position, another one the orientation.
 //
 // For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
 // if its Mahalanobis distance, by the covariance widened by gate_sigma, passes the gate, correct
@@ -20,7 +20,7 @@
 #include <optional>
 #include <vector>
 
-#include "prf_predictor/orientation_filter.hpp"
+#include "prf_predictor/rotation_predictor.hpp"
 #include "prf_predictor/tag_measurement.hpp"
 #include "prf_predictor/target_predictor.hpp"
 
@@ -29,9 +29,9 @@ namespace prf_predictor {
 using Nanoseconds = std::int64_t;
 
 struct TrackerParams {
-  VelocityDecay rotation;         // of the angular velocity
   double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
   double gate_sigma = 0.0;        // m, >= 0, of jerks that no filter foresees; widens the gate
+  double orientation_gate_sigma = 0.0;  // rad, the same
   int reacquire_hits = 0;         // >= 2
   double coast_after = 0.0;       // s without accepted sight, > 0
   double lost_after = 0.0;        // the same, > coast_after
@@ -43,8 +43,9 @@ void validate(const TrackerParams& params);
 enum class TrackStatus { kNoTarget, kTracking, kCoasting, kLost };
 
 struct Belief {
-  std::shared_ptr<const TargetPredictor> motion;  // never changed once it is here
-  OrientationBelief orientation;
+  // Never changed once they are here.
+  std::shared_ptr<const TargetPredictor> motion;
+  std::shared_ptr<const RotationPredictor> rotation;
 };
 
 // The track right after one image.
@@ -63,6 +64,7 @@ struct TrackState {
 
   bool measured = false;  // this image gave a sight that passed the gate
   double nis = 0.0;       // of the nearest sight's position, accepted or not
+  double orientation_nis = 0.0;  // of the accepted sight's orientation
   bool gated = false;     // sights there were, none passed
   bool orientation_gated = false;
   bool reacquired = false;
@@ -74,8 +76,7 @@ enum class Arrival { kInOrder, kDuplicate, kReplayed, kTooOld, kNewRun };
 struct Prediction {
   double horizon = 0.0;  // s
   PointForecast point;
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  OrientationForecast rotation;
 };
 
 class TargetTracker {
@@ -103,13 +104,20 @@ class TargetTracker {
     TrackState state;
   };
 
+  // What a step may still change.
+  struct Moving {
+    std::unique_ptr<TargetPredictor> motion;
+    std::unique_ptr<RotationPredictor> rotation;
+
+    Moving(const Belief& before, double dt);
+    [[nodiscard]] bool is_finite() const;
+  };
+
   [[nodiscard]] TrackState step(const TrackState& before, Nanoseconds stamp,
                                 const std::vector<TagMeasurement>& sights) const;
   [[nodiscard]] Belief begin(const TagMeasurement& sight) const;
-  [[nodiscard]] Belief advanced(const Belief& belief, double dt) const;
-  [[nodiscard]] bool accept(TrackState& state, const std::vector<TagMeasurement>& sights) const;
+  bool accept(Moving& target, const std::vector<TagMeasurement>& sights, TrackState& state) const;
   void pursue_candidate(TrackState& state, const std::vector<TagMeasurement>& sights) const;
-  [[nodiscard]] bool correct_orientation(Belief& belief, const TagMeasurement& sight) const;
   void settle_status(TrackState& state) const;
 
   TrackerParams params_;
