@@ -12,6 +12,7 @@
 
 #include "camera_transforms.hpp"
 #include "conversions.hpp"
+#include "leap_guard.hpp"
 #include "node_params.hpp"
 
 namespace prf_predictor {
@@ -45,7 +46,16 @@ class TargetPredictorNode {
     answer_what_is_ready();
   }
 
-  void on_detections(const prf_msgs::TagDetectionArrayConstPtr& array) {
+  void on_detections(const ros::MessageEvent<const prf_msgs::TagDetectionArray>& event) {
+    watch_publisher(event.getPublisherName());
+    const auto array = event.getConstMessage();
+    const auto [taken, refused] = guard_.take(array->header.stamp, array);
+    if (refused) drop("stamp far in the future", "");
+    for (const auto& next : taken) enqueue(next);
+    answer_what_is_ready();
+  }
+
+  void enqueue(const prf_msgs::TagDetectionArrayConstPtr& array) {
     const ros::Time stamp = array->header.stamp;
     if (stamp + kNewRun < newest_) {
       ROS_WARN("detection stamps went back from %.3f to %.3f s: new run", newest_.toSec(),
@@ -56,7 +66,15 @@ class TargetPredictorNode {
     }
     newest_ = stamp;
     waiting_.push_back(array);
-    answer_what_is_ready();
+  }
+
+  void watch_publisher(const std::string& name) {
+    if (!source_.empty() && name != source_) {
+      ++counts_["changes of publisher"];
+      ROS_WARN_THROTTLE(1.0, "tag_detections came from %s and now from %s: two publishers?",
+                        source_.c_str(), name.c_str());
+    }
+    source_ = name;
   }
 
   // Strictly in order: the first one waits for its tf, the others for the first.
@@ -139,6 +157,8 @@ class TargetPredictorNode {
   NodeParams params_;
   CameraTransforms transforms_;
   TargetTracker tracker_;
+  LeapGuard<prf_msgs::TagDetectionArrayConstPtr> guard_;
+  std::string source_;  // node that sent the latest detections
   std::deque<prf_msgs::TagDetectionArrayConstPtr> waiting_;
   ros::Time newest_;
   TrackStatus status_ = TrackStatus::kNoTarget;

@@ -15,6 +15,7 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from prf_msgs.msg import TagDetection, TagDetectionArray, TargetForecast
 from tf2_msgs.msg import TFMessage
@@ -22,6 +23,17 @@ from tf2_msgs.msg import TFMessage
 PACKAGE = "prf_predictor"
 BASE, ARM, CAMERA = "j2s7s300_link_base", "moving_arm", "camera_optical_frame"
 TF_PERIOD, FRAMES = 0.01, 12
+INTRUDER = """
+import rospy
+from prf_msgs.msg import TagDetectionArray
+rospy.init_node("intruder")
+images = rospy.Publisher("tag_detections", TagDetectionArray, queue_size=10)
+array = TagDetectionArray()
+array.header.stamp = rospy.Time.from_sec(100.0)
+while True:
+    images.publish(array)
+    rospy.rostime.wallsleep(0.1)
+"""
 
 
 def transform(parent, child, stamp, xyz, yaw=0.0):
@@ -99,7 +111,8 @@ class TargetPredictorNode(unittest.TestCase):
 
     def begin_run(self):
         self.tf.publish(arm_tf(5000.0))
-        self.images.publish(detections(5000.0, count=0))
+        for stamp in (5000.0, 5000.03):
+            self.images.publish(detections(stamp, count=0))
         rospy.rostime.wallsleep(0.3)
         self.answers.clear()
 
@@ -210,6 +223,52 @@ class TargetPredictorNode(unittest.TestCase):
         self.assertEqual(self.answers, [])
         self.images.publish(detections(100.6))
         self.assertEqual(self.answer(1).status, TargetForecast.NO_TARGET)
+
+    def test_lone_stamp_far_in_the_future_is_dropped(self):
+        self.send_tf(100.0, 100.4)
+        rospy.rostime.wallsleep(0.3)
+        for stamp in (100.05, 900.0, 100.1, 3000.0, 800.0, 100.15):
+            self.images.publish(detections(stamp))
+        self.answer(3)
+        self.assertEqual([round(a.header.stamp.to_sec(), 3) for a in self.answers],
+                         [100.05, 100.1, 100.15])
+        self.assertTrue(all(a.measured and a.status == TargetForecast.TRACKING
+                            for a in self.answers))
+
+    def test_time_that_goes_on_after_a_leap_is_followed(self):
+        self.send_tf(100.0, 100.1)
+        self.images.publish(detections(100.05))
+        self.answer(1)
+        self.send_tf(900.0, 900.2)
+        self.images.publish(detections(900.05))
+        rospy.rostime.wallsleep(0.2)
+        self.assertEqual(len(self.answers), 1)
+        self.images.publish(detections(900.08))
+        self.answer(3)
+        self.assertEqual([round(a.header.stamp.to_sec(), 3) for a in self.answers],
+                         [100.05, 900.05, 900.08])
+        self.assertTrue(all(a.status == TargetForecast.LOST for a in self.answers[1:]))
+
+    def test_second_publisher_is_reported(self):
+        counters = {}
+
+        def on_diagnostics(message):
+            for status in message.status:
+                counters.update({pair.key: pair.value for pair in status.values})
+
+        subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, on_diagnostics)
+        intruder = subprocess.Popen([sys.executable, "-c", INTRUDER])
+        try:
+            for k in range(400):
+                self.images.publish(detections(100.0 + 0.03 * k, count=0))
+                rospy.rostime.wallsleep(0.03)
+                if int(counters.get("changes of publisher", 0)) >= 2:
+                    break
+            self.assertGreaterEqual(int(counters.get("changes of publisher", 0)), 2, counters)
+        finally:
+            intruder.kill()
+            intruder.wait()
+            subscriber.unregister()
 
 
 class TargetPredictorParameters(unittest.TestCase):
