@@ -43,9 +43,7 @@ void validate(const VelocityDecay& decay) {
   require(decay.time_constant > 0, "velocity_time_constant", decay.time_constant, "> 0 s");
 }
 
-DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) {
-  validate(decay);
-}
+DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) { validate(decay); }
 
 Eigen::VectorXd DecayingVelocity::advance(const Eigen::VectorXd& state, double dt) const {
   Eigen::VectorXd next(6);

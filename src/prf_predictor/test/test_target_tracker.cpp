@@ -73,8 +73,7 @@ bool same(const TrackState& a, const TrackState& b) {
   return a.stamp == b.stamp && a.status == b.status && a.nis == b.nis && a.measured == b.measured &&
          a.belief.has_value() == b.belief.has_value() &&
          (!a.belief || (position_of(a) == position_of(b) && variance_of(a) == variance_of(b) &&
-                        orientation_of(a).coeffs() ==
-                            orientation_of(b).coeffs()));
+                        orientation_of(a).coeffs() == orientation_of(b).coeffs()));
 }
 
 TEST(TargetTracker, KnowsNoTargetUntilOneIsSeen) {

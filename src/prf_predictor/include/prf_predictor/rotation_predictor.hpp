@@ -15,8 +15,8 @@ namespace prf_predictor {
 
 struct OrientationForecast {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();           // rad/s
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();     // of a rotation from the left, rad^2
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();        // rad/s
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of a rotation from the left, rad^2
 };
 
 [[nodiscard]] bool is_finite(const OrientationForecast& forecast);

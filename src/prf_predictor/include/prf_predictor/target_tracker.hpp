@@ -32,9 +32,9 @@ struct TrackerParams {
   double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
   double gate_sigma = 0.0;        // m, >= 0, of jerks that no filter foresees; widens the gate
   double orientation_gate_sigma = 0.0;  // rad, the same
-  int reacquire_hits = 0;         // >= 2
-  double coast_after = 0.0;       // s without accepted sight, > 0
-  double lost_after = 0.0;        // the same, > coast_after
+  int reacquire_hits = 0;               // >= 2
+  double coast_after = 0.0;             // s without accepted sight, > 0
+  double lost_after = 0.0;              // the same, > coast_after
 };
 
 // Throws std::invalid_argument naming the parameter, its value and its bound.
@@ -62,10 +62,10 @@ struct TrackState {
   };
   std::optional<Candidate> candidate;
 
-  bool measured = false;  // this image gave a sight that passed the gate
-  double nis = 0.0;       // of the nearest sight's position, accepted or not
+  bool measured = false;         // this image gave a sight that passed the gate
+  double nis = 0.0;              // of the nearest sight's position, accepted or not
   double orientation_nis = 0.0;  // of the accepted sight's orientation
-  bool gated = false;     // sights there were, none passed
+  bool gated = false;            // sights there were, none passed
   bool orientation_gated = false;
   bool reacquired = false;
   bool reinitialised = false;  // the belief was no longer finite and was dropped
