@@ -52,19 +52,38 @@ Eigen::MatrixX3d on_grid(const std::deque<Sample>& samples) {
   return grid;
 }
 
+// A^T A and A^T x of x_k = sum over lags 1 .. order of a_lag x_{k - lag}, for all k that have so
+// many before them. Down a diagonal of A^T A each sum has one product more and one less than the
+// last.
+Eigen::MatrixXd normal_equations(const Eigen::VectorXd& x, Eigen::Index order,
+                                 Eigen::VectorXd& right) {
+  const Eigen::Index equations = x.size() - order;
+  Eigen::MatrixXd normal(order, order);
+  const auto lagged = [&](Eigen::Index lag) { return x.segment(order - lag, equations); };
+  for (Eigen::Index j = 0; j < order; ++j) {
+    right(j) = lagged(j + 1).dot(lagged(0));
+    normal(j, 0) = lagged(j + 1).dot(lagged(1));
+  }
+  for (Eigen::Index i = 1; i < order; ++i) {
+    for (Eigen::Index j = i; j < order; ++j) {
+      const Eigen::Index a = order - 1 - i;
+      const Eigen::Index b = order - 1 - j;
+      normal(j, i) = normal(j - 1, i - 1) + x(a) * x(b) - x(a + equations) * x(b + equations);
+    }
+  }
+  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
+  return normal;
+}
+
 // x, of the last rows, continued by `steps` values.
 Eigen::VectorXd continued(const Eigen::VectorXd& x, Eigen::Index order, Eigen::Index steps) {
   const double mean = x.mean();
   const double range = kFarthest * 0.5 * (x.maxCoeff() - x.minCoeff());
   const Eigen::VectorXd centred = x.array() - mean;
-  const Eigen::Index equations = x.size() - order;
-  Eigen::MatrixXd A(equations, order);
-  for (Eigen::Index lag = 0; lag < order; ++lag) {
-    A.col(lag) = centred.segment(order - 1 - lag, equations);
-  }
-  Eigen::MatrixXd normal = A.transpose() * A;
+  Eigen::VectorXd right(order);
+  Eigen::MatrixXd normal = normal_equations(centred, order, right);
   normal.diagonal().array() += kRidge * centred.squaredNorm() + 1e-12;
-  const Eigen::VectorXd a = normal.ldlt().solve(A.transpose() * centred.tail(equations));
+  const Eigen::VectorXd a = normal.ldlt().solve(right);
   Eigen::VectorXd path(order + steps);
   path.head(order) = centred.tail(order);
   for (Eigen::Index k = order; k < path.size(); ++k) {

@@ -37,10 +37,7 @@ Gaussian KalmanPredictor::ahead(double dt) const {
 void KalmanPredictor::advance(double dt) { belief_ = ahead(dt); }
 
 void KalmanPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
-  const Innovation innovation = sigma_points_
-                                    ? innovate(belief_, position, covariance, *sigma_points_)
-                                    : innovate(belief_, position, covariance);
-  belief_ = prf_predictor::correct(belief_, innovation);
+  belief_ = prf_predictor::correct(belief_, innovate(belief_, position, covariance));
 }
 
 PointForecast KalmanPredictor::forecast(double horizon) const {

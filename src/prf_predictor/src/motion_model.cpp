@@ -45,19 +45,19 @@ void validate(const VelocityDecay& decay) {
 
 DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) { validate(decay); }
 
-Eigen::VectorXd DecayingVelocity::advance(const Eigen::VectorXd& state, double dt) const {
-  Eigen::VectorXd next(6);
-  next.head<3>() = state.head<3>() + decay_.travel(dt) * state.tail<3>();
-  next.tail<3>() = decay_.velocity_factor(dt) * state.tail<3>();
+Points DecayingVelocity::advance(const Points& states, double dt) const {
+  Points next(6, states.cols());
+  next.topRows<3>() = states.topRows<3>() + decay_.travel(dt) * states.bottomRows<3>();
+  next.bottomRows<3>() = decay_.velocity_factor(dt) * states.bottomRows<3>();
   return next;
 }
 
-Eigen::MatrixXd DecayingVelocity::process_noise(double dt) const {
+StateMatrix DecayingVelocity::process_noise(double dt) const {
   return for_three_axes(decay_.noise(dt));
 }
 
-Eigen::MatrixXd DecayingVelocity::jacobian(const Eigen::VectorXd& /*state*/, double dt) const {
-  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(6, 6);
+StateMatrix DecayingVelocity::jacobian(const State& /*state*/, double dt) const {
+  StateMatrix F = StateMatrix::Identity(6, 6);
   F.topRightCorner<3, 3>().diagonal().setConstant(decay_.travel(dt));
   F.bottomRightCorner<3, 3>().diagonal().setConstant(decay_.velocity_factor(dt));
   return F;
@@ -65,7 +65,7 @@ Eigen::MatrixXd DecayingVelocity::jacobian(const Eigen::VectorXd& /*state*/, dou
 
 Gaussian DecayingVelocity::initial_belief(const Eigen::Vector3d& position,
                                           const Eigen::Matrix3d& covariance) const {
-  Gaussian belief{Eigen::VectorXd::Zero(6), Eigen::MatrixXd::Zero(6, 6)};
+  Gaussian belief{State::Zero(6), StateMatrix::Zero(6, 6)};
   belief.mean.head<3>() = position;
   belief.covariance.topLeftCorner<3, 3>() = covariance;
   belief.covariance.diagonal().tail<3>().setConstant(decay_.prior_variance());
@@ -77,23 +77,26 @@ ConstantAcceleration::ConstantAcceleration(double jerk_density) : jerk_density_(
           "finite and > 0");
 }
 
-Eigen::VectorXd ConstantAcceleration::advance(const Eigen::VectorXd& state, double dt) const {
-  return jacobian(state, dt) * state;
+Points ConstantAcceleration::advance(const Points& states, double dt) const {
+  Points next = states;
+  next.topRows<6>() += dt * states.bottomRows<6>();
+  next.topRows<3>() += 0.5 * dt * dt * states.bottomRows<3>();
+  return next;
 }
 
-Eigen::MatrixXd ConstantAcceleration::jacobian(const Eigen::VectorXd& /*state*/, double dt) const {
-  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(9, 9);
+StateMatrix ConstantAcceleration::jacobian(const State& /*state*/, double dt) const {
+  StateMatrix F = StateMatrix::Identity(9, 9);
   F.diagonal<3>().setConstant(dt);
   F.diagonal<6>().setConstant(0.5 * dt * dt);
   return F;
 }
 
-Eigen::MatrixXd ConstantAcceleration::process_noise(double dt) const {
+StateMatrix ConstantAcceleration::process_noise(double dt) const {
   Eigen::Matrix3d q;  // of one axis: the integral of g g^T over g = (t^2 / 2, t, 1)
   q << std::pow(dt, 5) / 20, std::pow(dt, 4) / 8, std::pow(dt, 3) / 6,  //
       std::pow(dt, 4) / 8, std::pow(dt, 3) / 3, dt * dt / 2,            //
       std::pow(dt, 3) / 6, dt * dt / 2, dt;
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(9, 9);
+  StateMatrix Q = StateMatrix::Zero(9, 9);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       Q.block<3, 3>(3 * row, 3 * column).diagonal().setConstant(jerk_density_ * q(row, column));
@@ -104,7 +107,7 @@ Eigen::MatrixXd ConstantAcceleration::process_noise(double dt) const {
 
 Gaussian ConstantAcceleration::initial_belief(const Eigen::Vector3d& position,
                                               const Eigen::Matrix3d& covariance) const {
-  Gaussian belief{Eigen::VectorXd::Zero(9), Eigen::MatrixXd::Identity(9, 9)};
+  Gaussian belief{State::Zero(9), StateMatrix::Identity(9, 9)};
   belief.mean.head<3>() = position;
   belief.covariance.topLeftCorner<3, 3>() = covariance;
   return belief;
@@ -128,25 +131,28 @@ double frequency_of(double logarithm) {
 
 }  // namespace
 
-Eigen::VectorXd Oscillation::advance(const Eigen::VectorXd& state, double dt) const {
-  const double W = frequency_of(state(9));
-  const double cosine = std::cos(W * dt);
-  const double sine = std::sin(W * dt);
-  const Eigen::Vector3d swing = state.head<3>() - state.segment<3>(6);
-  Eigen::VectorXd next = state;
-  next.head<3>() = state.segment<3>(6) + cosine * swing + sine / W * state.segment<3>(3);
-  next.segment<3>(3) = -W * sine * swing + cosine * state.segment<3>(3);
+Points Oscillation::advance(const Points& states, double dt) const {
+  Points next = states;
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    const auto state = states.col(i);
+    const double W = frequency_of(state(9));
+    const double cosine = std::cos(W * dt);
+    const double sine = std::sin(W * dt);
+    const Eigen::Vector3d swing = state.head<3>() - state.segment<3>(6);
+    next.col(i).head<3>() = state.segment<3>(6) + cosine * swing + sine / W * state.segment<3>(3);
+    next.col(i).segment<3>(3) = -W * sine * swing + cosine * state.segment<3>(3);
+  }
   return next;
 }
 
-Eigen::MatrixXd Oscillation::jacobian(const Eigen::VectorXd& state, double dt) const {
+StateMatrix Oscillation::jacobian(const State& state, double dt) const {
   const double W = frequency_of(state(9));
   const double turn = W * dt;
   const double cosine = std::cos(turn);
   const double sine = std::sin(turn);
   const Eigen::Vector3d swing = state.head<3>() - state.segment<3>(6);
   const Eigen::Vector3d velocity = state.segment<3>(3);
-  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(10, 10);
+  StateMatrix F = StateMatrix::Identity(10, 10);
   for (int axis = 0; axis < 3; ++axis) {
     F.row(axis).setZero();
     F(axis, axis) = cosine;
@@ -161,9 +167,9 @@ Eigen::MatrixXd Oscillation::jacobian(const Eigen::VectorXd& state, double dt) c
   return F;
 }
 
-Eigen::MatrixXd Oscillation::process_noise(double dt) const {
+StateMatrix Oscillation::process_noise(double dt) const {
   const VelocityDecay pushed{noise_.acceleration_density, std::numeric_limits<double>::infinity()};
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(10, 10);
+  StateMatrix Q = StateMatrix::Zero(10, 10);
   Q.topLeftCorner<6, 6>() = for_three_axes(pushed.noise(dt));
   Q.diagonal().segment<3>(6).setConstant(noise_.centre_density * dt);
   Q(9, 9) = noise_.frequency_density * dt;
@@ -176,7 +182,7 @@ Gaussian Oscillation::initial_belief(const Eigen::Vector3d& position,
   constexpr double kSwing = 0.05;        // m
   constexpr double kLogFrequency = 0.7;  // ln(2 rad/s)
   constexpr double kLogFrequencySigma = 0.4;
-  Gaussian belief{Eigen::VectorXd::Zero(10), Eigen::MatrixXd::Zero(10, 10)};
+  Gaussian belief{State::Zero(10), StateMatrix::Zero(10, 10)};
   belief.mean.head<3>() = position;
   belief.mean.segment<3>(6) = position;
   belief.mean(9) = kLogFrequency;

@@ -171,7 +171,7 @@ void PeriodicPredictor::advance(double dt) {
 
 void PeriodicPredictor::correct(const Eigen::Vector3d& position,
                                 const Eigen::Matrix3d& covariance) {
-  const PointForecast expected = mixture(0);
+  const PointForecast expected = mixture(0, transitions(0));
   const Eigen::Array3d ratio =
       ((position - expected.position).array().square() - covariance.diagonal().array()) /
       expected.covariance.diagonal().head<3>().array();
@@ -218,7 +218,7 @@ void PeriodicPredictor::promise() {
       candidates.col(static_cast<Eigen::Index>(i)) =
           beliefs_[i].position(passing[bank_->hypotheses[i].parts]);
     }
-    const PointForecast given = mixture(horizon);
+    const PointForecast given = mixture(horizon, passing);
     promises[k].position = given.position;
     promises[k].variance = given.covariance.diagonal().head<3>();
     promised_[k] = promises[k].variance;
@@ -256,10 +256,9 @@ SpectralBelief::Forecast PeriodicPredictor::autoregression(double horizon) const
   return forecast;
 }
 
-PointForecast PeriodicPredictor::mixture(double horizon) const {
+PointForecast PeriodicPredictor::mixture(double horizon, const Transitions& passing) const {
   using Vector6d = Eigen::Matrix<double, 6, 1>;
   constexpr double kNegligible = 1e-3;
-  const Transitions passing = transitions(horizon);
   const Eigen::ArrayXd weight = weights(horizon);
   double total = 0.0;
   Vector6d mean = Vector6d::Zero();
@@ -301,7 +300,7 @@ Eigen::Array3d PeriodicPredictor::proven_sigma(double horizon,
 }
 
 PointForecast PeriodicPredictor::forecast(double horizon) const {
-  PointForecast forecast = mixture(horizon);
+  PointForecast forecast = mixture(horizon, transitions(horizon));
   const Eigen::Array3d variance = forecast.covariance.diagonal().head<3>();
   const Eigen::Array3d sigma =
       proven_sigma(horizon, variance).max(kLeastOfNoise * noise_.array().sqrt());

@@ -93,8 +93,10 @@ void SpectralBelief::correct(const Eigen::Vector3d& position, double variance) {
   }
   double S = variance;
   for (Eigen::Index i = 0; i < P_.rows(); i += 2) S += PH(i);
-  x_ += PH * ((position - expected) / S).transpose();
-  P_ -= PH * PH.transpose() / S;
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> gain = PH / S;
+  const Eigen::Vector3d innovation = position - expected;
+  for (int axis = 0; axis < 3; ++axis) x_.col(axis) += innovation(axis) * gain;
+  for (Eigen::Index i = 0; i < P_.cols(); ++i) P_.col(i) -= PH(i) * gain;
 }
 
 SpectralBelief::Forecast SpectralBelief::forecast(
@@ -115,8 +117,10 @@ Eigen::Vector3d SpectralBelief::position(const std::vector<Transition>& transiti
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Index row = 0;
   for (const int part : *used_) {
-    sum += x_.middleRows<2>(row).transpose() *
-           transitions[static_cast<std::size_t>(part)].F.row(0).transpose();
+    const Eigen::Matrix2d& F = transitions[static_cast<std::size_t>(part)].F;
+    for (int axis = 0; axis < 3; ++axis) {
+      sum(axis) += F(0, 0) * x_(row, axis) + F(0, 1) * x_(row + 1, axis);
+    }
     row += 2;
   }
   return sum;

@@ -18,13 +18,13 @@ SigmaPoints sigma_points(const Gaussian& belief, const SigmaPointParams& params)
   const Eigen::Index n = belief.mean.size();
   const double scale = params.alpha * params.alpha * (static_cast<double>(n) + params.kappa);
   const double lambda = scale - static_cast<double>(n);
-  const Eigen::MatrixXd spread = std::sqrt(scale) * square_root(belief.covariance);
+  const StateMatrix spread = std::sqrt(scale) * square_root(belief.covariance);
 
   SigmaPoints sigma;
   sigma.points = belief.mean.replicate(1, 2 * n + 1);
   sigma.points.middleCols(1, n) += spread;
   sigma.points.rightCols(n) -= spread;
-  sigma.mean_weights = Eigen::VectorXd::Constant(2 * n + 1, 0.5 / scale);
+  sigma.mean_weights = Weights::Constant(2 * n + 1, 0.5 / scale);
   sigma.mean_weights(0) = lambda / scale;
   sigma.covariance_weights = sigma.mean_weights;
   sigma.covariance_weights(0) += 1.0 - params.alpha * params.alpha + params.beta;

@@ -66,7 +66,7 @@ TEST_P(UkfOnLinearModel, EqualsTheKalmanFilter) {
     const Eigen::Matrix3d R = random_covariance(random);
     belief = predict(belief, model, dt, GetParam());
     reference.predict(dt, for_three_axes(decay.noise(dt)));
-    belief = correct(belief, innovate(belief, z, R, GetParam()));
+    belief = correct(belief, innovate(belief, z, R));
     reference.correct(z, R);
     ASSERT_LT((belief.mean - reference.x).cwiseAbs().maxCoeff(), 1e-12) << "step " << i;
     ASSERT_LT((belief.covariance - reference.P).cwiseAbs().maxCoeff(), 1e-12) << "step " << i;
@@ -90,7 +90,7 @@ TEST(Ukf, CovarianceStaysPositiveDefiniteThroughDropoutsAndExtremes) {
       if (uniform(random) < 0.6) {
         const Eigen::Matrix3d R =
             random_covariance(random) * std::pow(10.0, -6 + 8 * uniform(random));
-        belief = correct(belief, innovate(belief, normal_vector(random, 1.0), R, params));
+        belief = correct(belief, innovate(belief, normal_vector(random, 1.0), R));
       }
       ASSERT_TRUE(is_finite(belief));
       ASSERT_EQ(belief.covariance, belief.covariance.transpose());
@@ -120,7 +120,7 @@ TEST(Ukf, NisIsConsistentOnDataDrawnFromTheModel) {
     truth = model.advance(truth, dt) + Q_root * noise;
     belief = predict(belief, model, dt, params);
     const Eigen::Vector3d z = truth.head<3>() + R_root * normal_vector(random, 1.0);
-    const Innovation innovation = innovate(belief, z, R, params);
+    const Innovation innovation = innovate(belief, z, R);
     sum += innovation.nis;
     belief = correct(belief, innovation);
   }
@@ -134,34 +134,43 @@ TEST(UnscentedTransform, IsExactForASquare) {
   const double m = 0.7;
   const double s = 0.4;
   const Gaussian x{Eigen::VectorXd::Constant(1, m), Eigen::MatrixXd::Constant(1, 1, s * s)};
-  const auto square = [](const Eigen::VectorXd& value) -> Eigen::VectorXd {
-    return value.cwiseProduct(value);
-  };
+  const auto square = [](const Points& values) -> Points { return values.cwiseProduct(values); };
   const auto transformed = unscented_transform(x, SigmaPointParams{1.0, 2.0, 0.0}, square);
-  EXPECT_NEAR(transformed.result.mean(0), m * m + s * s, 1e-14);
-  EXPECT_NEAR(transformed.result.covariance(0, 0), 4 * m * m * s * s + 2 * std::pow(s, 4), 1e-14);
-  EXPECT_NEAR(transformed.cross_covariance(0, 0), 2 * m * s * s, 1e-14);
+  EXPECT_NEAR(transformed.mean(0), m * m + s * s, 1e-14);
+  EXPECT_NEAR(transformed.covariance(0, 0), 4 * m * m * s * s + 2 * std::pow(s, 4), 1e-14);
 }
 
 TEST(UnscentedTransform, UsesTheGivenMeanAndResidualForAngles) {
-  Gaussian heading{Eigen::VectorXd::Constant(1, M_PI - 0.05),
-                   Eigen::MatrixXd::Constant(1, 1, 0.04)};
+  Gaussian heading{State::Constant(1, M_PI - 0.05), StateMatrix::Constant(1, 1, 0.04)};
   const auto wrap = [](double angle) { return std::remainder(angle, 2 * M_PI); };
   const auto transformed = unscented_transform(
       heading, SigmaPointParams{1.0, 0.0, 0.0},
-      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-        return Eigen::VectorXd::Constant(1, wrap(x(0) + 0.1));
-      },
-      [&](const Eigen::MatrixXd& points, const Eigen::VectorXd& weights) -> Eigen::VectorXd {
+      [&](const Points& x) -> Points { return (x.array() + 0.1).unaryExpr(wrap); },
+      [&](const Points& points, const Weights& weights) -> State {
         const Eigen::ArrayXd angles = points.row(0).transpose().array();
-        return Eigen::VectorXd::Constant(1, std::atan2((weights.array() * angles.sin()).sum(),
-                                                       (weights.array() * angles.cos()).sum()));
+        return State::Constant(1, std::atan2((weights.array() * angles.sin()).sum(),
+                                             (weights.array() * angles.cos()).sum()));
       },
-      [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) -> Eigen::VectorXd {
-        return Eigen::VectorXd::Constant(1, wrap(a(0) - b(0)));
+      [&](const Points& points, const State& mean) -> Points {
+        return (points.array() - mean(0)).unaryExpr(wrap);
       });
-  EXPECT_NEAR(transformed.result.mean(0), wrap(M_PI + 0.05), 1e-12);
-  EXPECT_NEAR(transformed.result.covariance(0, 0), 0.04, 1e-12);
+  EXPECT_NEAR(transformed.mean(0), wrap(M_PI + 0.05), 1e-12);
+  EXPECT_NEAR(transformed.covariance(0, 0), 0.04, 1e-12);
+}
+
+// What innovate() does without it.
+TEST(UnscentedTransform, GivesThePositionExactly) {
+  const Oscillation model({0.03, 1e-4, 0.01});
+  std::mt19937 random(6);
+  const Eigen::Matrix3d R = random_covariance(random);
+  for (const auto& params : {SigmaPointParams::paper(), SigmaPointParams::textbook()}) {
+    const Gaussian belief = predict(model.initial_belief({0.8, -0.1, 0.4}, R), model, 0.5, params);
+    const Gaussian position = unscented_transform(
+        belief, params, [](const Points& states) -> Points { return states.topRows<3>(); });
+    const Innovation innovation = innovate(belief, {0.0, 0.0, 0.0}, R);
+    EXPECT_LT((position.mean + innovation.residual).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((position.covariance + R - innovation.covariance).cwiseAbs().maxCoeff(), 1e-12);
+  }
 }
 
 TEST(SigmaPointParams, AreRefusedOutOfBounds) {

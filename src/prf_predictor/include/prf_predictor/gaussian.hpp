@@ -7,22 +7,28 @@
 
 namespace prf_predictor {
 
+// Of at most kMostStates numbers, so that they need no heap.
+constexpr int kMostStates = 10;
+using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostStates, 1>;
+using StateMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostStates>;
+
 struct Gaussian {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
+  State mean;
+  StateMatrix covariance;
 };
 
 [[nodiscard]] bool is_finite(const Gaussian& gaussian);
 
 // True for a finite, symmetric (relative 1e-6), positive definite matrix.
-[[nodiscard]] bool is_covariance(const Eigen::MatrixXd& matrix);
+[[nodiscard]] bool is_covariance(const StateMatrix& matrix);
 
 // The nearest symmetric matrix, with eigenvalues below 1e-12 of the largest raised to that. A
 // matrix that is already positive definite is only symmetrised.
-[[nodiscard]] Eigen::MatrixXd repaired(const Eigen::MatrixXd& covariance);
+[[nodiscard]] StateMatrix repaired(const StateMatrix& covariance);
 
 // Some L with L L^T = P for a positive semidefinite P.
-[[nodiscard]] Eigen::MatrixXd square_root(const Eigen::MatrixXd& covariance);
+[[nodiscard]] StateMatrix square_root(const StateMatrix& covariance);
 
 // The value below which a chi-square variable of three degrees of freedom lies with the
 // probability p in (0, 1).

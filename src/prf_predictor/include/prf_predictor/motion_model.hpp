@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "prf_predictor/gaussian.hpp"
+#include "prf_predictor/unscented_transform.hpp"
 
 namespace prf_predictor {
 
@@ -16,10 +16,11 @@ class MotionModel {
   virtual ~MotionModel() = default;
 
   [[nodiscard]] virtual Eigen::Index dimension() const = 0;
-  [[nodiscard]] virtual Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const = 0;
-  [[nodiscard]] virtual Eigen::MatrixXd process_noise(double dt) const = 0;
+  // Of states side by side, one a column.
+  [[nodiscard]] virtual Points advance(const Points& states, double dt) const = 0;
+  [[nodiscard]] virtual StateMatrix process_noise(double dt) const = 0;
   // Of advance, by the state.
-  [[nodiscard]] virtual Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const = 0;
+  [[nodiscard]] virtual StateMatrix jacobian(const State& state, double dt) const = 0;
   // Position known by a measurement, the rest by the model's prior.
   [[nodiscard]] virtual Gaussian initial_belief(const Eigen::Vector3d& position,
                                                 const Eigen::Matrix3d& covariance) const = 0;
@@ -49,9 +50,9 @@ class DecayingVelocity : public MotionModel {
   explicit DecayingVelocity(const VelocityDecay& decay);
 
   [[nodiscard]] Eigen::Index dimension() const override { return 6; }
-  [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Points advance(const Points& states, double dt) const override;
+  [[nodiscard]] StateMatrix process_noise(double dt) const override;
+  [[nodiscard]] StateMatrix jacobian(const State& state, double dt) const override;
   [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
                                         const Eigen::Matrix3d& covariance) const override;
 
@@ -66,9 +67,9 @@ class ConstantAcceleration : public MotionModel {
   explicit ConstantAcceleration(double jerk_density);  // q, (m/s^3)^2 / Hz, > 0
 
   [[nodiscard]] Eigen::Index dimension() const override { return 9; }
-  [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Points advance(const Points& states, double dt) const override;
+  [[nodiscard]] StateMatrix process_noise(double dt) const override;
+  [[nodiscard]] StateMatrix jacobian(const State& state, double dt) const override;
   [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
                                         const Eigen::Matrix3d& covariance) const override;
 
@@ -89,9 +90,9 @@ class Oscillation : public MotionModel {
   explicit Oscillation(const OscillationNoise& noise);
 
   [[nodiscard]] Eigen::Index dimension() const override { return 10; }
-  [[nodiscard]] Eigen::VectorXd advance(const Eigen::VectorXd& state, double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd process_noise(double dt) const override;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& state, double dt) const override;
+  [[nodiscard]] Points advance(const Points& states, double dt) const override;
+  [[nodiscard]] StateMatrix process_noise(double dt) const override;
+  [[nodiscard]] StateMatrix jacobian(const State& state, double dt) const override;
   [[nodiscard]] Gaussian initial_belief(const Eigen::Vector3d& position,
                                         const Eigen::Matrix3d& covariance) const override;
 

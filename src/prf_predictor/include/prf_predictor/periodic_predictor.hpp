@@ -80,7 +80,8 @@ class PeriodicPredictor : public TargetPredictor {
   [[nodiscard]] Eigen::ArrayXd weights(double horizon) const;
   // Of the forecast, given the variance that the filters promise, by how promises proved.
   [[nodiscard]] Eigen::Array3d proven_sigma(double horizon, const Eigen::Array3d& variance) const;
-  [[nodiscard]] PointForecast mixture(double horizon) const;  // covariance as the filters have it
+  // Covariance as the filters have it; `passing`: the transitions over the horizon.
+  [[nodiscard]] PointForecast mixture(double horizon, const Transitions& passing) const;
   [[nodiscard]] SpectralBelief::Forecast autoregression(double horizon) const;
   void look(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance);
   void settle_weights(double noise_variance);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Unscented Kalman filter of a moving point whose position is measured, as pure functions:
 //   predict:   m, P <- UT(advance), P += Q
-//   innovate:  z_hat, S, C = UT(position), S += R, nu = z - z_hat, NIS = nu^T S^-1 nu
-//   correct:   K = C S^-1, m += K nu, P -= K S K^T.
-// On a linear model this is the Kalman filter. Covariances returned are symmetric and positive
-// definite.
+//   innovate:  S = P_position + R, nu = z - m_position, NIS = nu^T S^-1 nu
+//   correct:   K = P_{.,position} S^-1, m += K nu, P -= K S K^T.
+// The position is a linear function of the state, of which the unscented transform gives
+// m_position, P_position and P_{.,position} exactly, whatever its parameters: it need not be
+// carried out. On a linear model all of this is the Kalman filter. Covariances returned are
+// symmetric and positive definite.
 #pragma once
 
 #include "prf_predictor/motion_model.hpp"
@@ -16,21 +18,14 @@ namespace prf_predictor {
                                const SigmaPointParams& params);
 
 struct Innovation {
-  Eigen::VectorXd residual;    // nu
-  Eigen::MatrixXd covariance;  // S
-  Eigen::MatrixXd gain;        // K
+  Eigen::Vector3d residual;                                          // nu
+  Eigen::Matrix3d covariance;                                        // S
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostStates, 3> gain;  // K
   double nis = 0.0;
 };
 
 [[nodiscard]] Innovation innovate(const Gaussian& belief, const Eigen::Vector3d& position,
-                                  const Eigen::Matrix3d& covariance,
-                                  const SigmaPointParams& params);
-
-// The same once the expected measurement and its covariance with the state (n x 3) are known.
-[[nodiscard]] Innovation innovation_of(const Gaussian& expected,
-                                       const Eigen::MatrixXd& cross_covariance,
-                                       const Eigen::Vector3d& position,
-                                       const Eigen::Matrix3d& covariance);
+                                  const Eigen::Matrix3d& covariance);
 
 [[nodiscard]] Gaussian correct(const Gaussian& belief, const Innovation& innovation);
 

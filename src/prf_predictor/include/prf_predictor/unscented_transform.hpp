@@ -24,57 +24,55 @@ struct SigmaPointParams {
 // Throws std::invalid_argument naming the parameter, its value and its bound.
 void validate(const SigmaPointParams& params);
 
+constexpr int kMostPoints = 2 * kMostStates + 1;
+using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostPoints>;
+using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPoints, 1>;
+
 // One column per point; the first is the mean.
 struct SigmaPoints {
-  Eigen::MatrixXd points;
-  Eigen::VectorXd mean_weights;
-  Eigen::VectorXd covariance_weights;
+  Points points;
+  Weights mean_weights;
+  Weights covariance_weights;
 };
 
 [[nodiscard]] SigmaPoints sigma_points(const Gaussian& belief, const SigmaPointParams& params);
 
-struct Transformed {
-  Gaussian result;
-  Eigen::MatrixXd cross_covariance;  // of input and result
-};
-
 struct VectorMean {
   // The first point plus the mean distance to it: large weights of both signs cancel exactly.
-  Eigen::VectorXd operator()(const Eigen::MatrixXd& points, const Eigen::VectorXd& weights) const {
-    return points.col(0) + (points.colwise() - points.col(0)) * weights;
+  State operator()(const Points& points, const Weights& weights) const {
+    State sum = State::Zero(points.rows());
+    for (Eigen::Index i = 1; i < points.cols(); ++i) {
+      sum += weights(i) * (points.col(i) - points.col(0));
+    }
+    return points.col(0) + sum;
   }
 };
 
 struct VectorResidual {
-  Eigen::VectorXd operator()(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-    return a - b;
+  Points operator()(const Points& points, const State& mean) const {
+    return points.colwise() - mean;
   }
 };
 
-// `mean` and `residual` say how to average and to subtract where results are no plain vectors.
+// `function` takes all points at once, one a column. `mean` and `residual` (of all points) say how
+// to average and to subtract where results are no plain vectors.
 template <typename Function, typename Mean = VectorMean, typename Residual = VectorResidual>
-[[nodiscard]] Transformed unscented_transform(const Gaussian& belief,
-                                              const SigmaPointParams& params,
-                                              const Function& function, const Mean& mean = {},
-                                              const Residual& residual = {}) {
+[[nodiscard]] Gaussian unscented_transform(const Gaussian& belief, const SigmaPointParams& params,
+                                           const Function& function, const Mean& mean = {},
+                                           const Residual& residual = {}) {
   const SigmaPoints sigma = sigma_points(belief, params);
-  const Eigen::VectorXd first = function(sigma.points.col(0));
-  Eigen::MatrixXd images(first.size(), sigma.points.cols());
-  images.col(0) = first;
-  for (Eigen::Index i = 1; i < sigma.points.cols(); ++i) {
-    images.col(i) = function(sigma.points.col(i));
-  }
-
-  Transformed transformed;
-  transformed.result.mean = mean(images, sigma.mean_weights);
-  Eigen::MatrixXd deviations(images.rows(), images.cols());
+  const Points images = function(sigma.points);
+  Gaussian result;
+  result.mean = mean(images, sigma.mean_weights);
+  const Points deviations = residual(images, result.mean);
+  result.covariance.setZero(images.rows(), images.rows());
   for (Eigen::Index i = 0; i < images.cols(); ++i) {
-    deviations.col(i) = residual(images.col(i), transformed.result.mean);
+    for (Eigen::Index j = 0; j < images.rows(); ++j) {
+      result.covariance.col(j) +=
+          (sigma.covariance_weights(i) * deviations(j, i)) * deviations.col(i);
+    }
   }
-  const Eigen::MatrixXd weighted = deviations * sigma.covariance_weights.asDiagonal();
-  transformed.result.covariance = weighted * deviations.transpose();
-  transformed.cross_covariance = (sigma.points.colwise() - belief.mean) * weighted.transpose();
-  return transformed;
+  return result;
 }
 
 }  // namespace prf_predictor
