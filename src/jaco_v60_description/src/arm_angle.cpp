@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry.hpp"
-
 namespace jaco_v60_description {
 
 namespace {
@@ -105,15 +103,16 @@ std::vector<Arc> feasible_arcs(const ElbowCircle& circle, int elbow_branch,
   return intersection(*shoulder, *wrist);
 }
 
-double arm_angle(const JointVector& q) {
-  check_finite(q, "q");
-  const Frames frames = link_frames(q);
+double arm_angle(const Frames& frames) {
   const Eigen::Vector3d shoulder = frames.origin[1];
   const Eigen::Vector3d elbow = frames.origin[3];
-  const Eigen::Vector3d wrist =
-      frames.end_effector.translation() - kToolLength * frames.end_effector.linear().col(2);
-  const ArmAxes axes = arm_axes(wrist - shoulder);
+  const ArmAxes axes = arm_axes(frames.origin[5] - shoulder);
   return std::atan2((elbow - shoulder).dot(axes.ninety), (elbow - shoulder).dot(axes.zero));
+}
+
+double arm_angle(const JointVector& q) {
+  check_finite(q, "q");
+  return arm_angle(link_frames(q));
 }
 
 }  // namespace jaco_v60_description

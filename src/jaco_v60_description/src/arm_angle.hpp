@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry.hpp"
+
 namespace jaco_v60_description {
 
 // Orthonormal right-handed: `axis` from S to W, `zero` the direction of arm angle 0.
@@ -47,5 +49,7 @@ struct Arc {
 // with the shoulder's 1.6 mm offset neglected. At most two.
 std::vector<Arc> feasible_arcs(const ElbowCircle& circle, int elbow_branch,
                                const Eigen::Vector3d& tool_axis, double slack);
+
+double arm_angle(const Frames& frames);
 
 }  // namespace jaco_v60_description

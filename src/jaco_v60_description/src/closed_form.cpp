@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closed_form.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "arm_angle.hpp"
+#include "pose_step.hpp"
 
 namespace jaco_v60_description {
 
@@ -94,45 +94,24 @@ std::optional<JointVector> branch_solution(const Eigen::Isometry3d& pose, double
   return normalized_angles(q);
 }
 
-PoseErrors pose_errors(const JointVector& q, const Eigen::Isometry3d& pose) {
-  const auto difference = pose_difference(link_frames(q).end_effector, pose);
+PoseErrors pose_errors(const Frames& frames, const Eigen::Isometry3d& pose) {
+  const auto difference = pose_difference(frames.end_effector, pose);
   return {difference.head<3>().norm(), difference.tail<3>().norm()};
-}
-
-LeastStep::LeastStep(const Jacobian& jacobian) : jacobian_(jacobian) {
-  constexpr double kDamping = 1e-10;  // [m^2], [rad^2]
-  Eigen::Matrix<double, 6, 6> gram = jacobian * jacobian.transpose();
-  gram.diagonal().array() += kDamping;
-  gram_.compute(gram);
-}
-
-JointVector LeastStep::solve(const Eigen::Matrix<double, 6, 1>& difference) const {
-  return jacobian_.transpose() * gram_.solve(difference);
-}
-
-JointVector LeastStep::self_motion() const {
-  using Projector = Eigen::Matrix<double, 7, 7>;
-  const Projector projector =
-      Projector::Identity() - jacobian_.transpose() * gram_.solve(jacobian_);
-  Eigen::Index largest = 0;
-  projector.diagonal().maxCoeff(&largest);
-  return projector.col(largest).normalized();
 }
 
 bool polish(const Eigen::Isometry3d& pose, JointVector* q) {
   constexpr int kIterations = 12;
-  constexpr double kGoal = 1e-12;       // aimed at, so that kPoseTolerance is met with room
   constexpr double kLargestStep = 0.3;  // [rad] in the norm of q
   for (int i = 0; i < kIterations; ++i) {
     const Frames frames = link_frames(*q);
     const auto difference = pose_difference(frames.end_effector, pose);
-    if (difference.norm() < kGoal) return true;
-    JointVector step = LeastStep(jacobian(frames)).solve(difference);
+    if (difference.norm() < kPoseGoal) return true;
+    JointVector step = pose_step(frames, difference).least;
     const double norm = step.norm();
     if (norm > kLargestStep) step *= kLargestStep / norm;
     *q += step;
   }
-  return pose_errors(*q, pose).met();
+  return pose_errors(link_frames(*q), pose).met();
 }
 
 std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, double phi) {
@@ -145,7 +124,7 @@ std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, doub
     auto q = branch_solution(target, phi, branch);
     if (!q || !polish(target, &*q)) continue;
     const JointVector angles = normalized_angles(*q);
-    const PoseErrors errors = pose_errors(angles, target);
+    const PoseErrors errors = pose_errors(link_frames(angles), target);
     solutions.push_back(
         {branch, angles, within_limits(angles), errors.position, errors.orientation});
   }

@@ -19,26 +19,14 @@ std::optional<JointVector> branch_solution(const Eigen::Isometry3d& pose, double
 
 // A pose is met if both errors are below this.
 constexpr double kPoseTolerance = 1e-9;
+constexpr double kPoseGoal = 1e-11;  // aimed at, so that the tolerance is met with room
 struct PoseErrors {
   double position;
   double orientation;
 
   bool met() const { return position < kPoseTolerance && orientation < kPoseTolerance; }
 };
-PoseErrors pose_errors(const JointVector& q, const Eigen::Isometry3d& pose);
-
-// Least step dq with J dq = difference, also near singularities (slightly damped).
-class LeastStep {
- public:
-  explicit LeastStep(const Jacobian& jacobian);
-  JointVector solve(const Eigen::Matrix<double, 6, 1>& difference) const;
-  // Unit joint motion that does not move the hand.
-  JointVector self_motion() const;
-
- private:
-  Jacobian jacobian_;
-  Eigen::LLT<Eigen::Matrix<double, 6, 6>> gram_;
-};
+PoseErrors pose_errors(const Frames& frames, const Eigen::Isometry3d& pose);
 
 // Newton from q to the pose; false if it does not get there.
 bool polish(const Eigen::Isometry3d& pose, JointVector* q);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,10 +14,24 @@ namespace {
 FixedTransform make_transform(double x, double y, double z, double roll, double pitch, double yaw) {
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  return {(AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
-           AngleAxisd(roll, Vector3d::UnitX()))
-              .toRotationMatrix(),
-          Vector3d(x, y, z)};
+  const Eigen::Matrix3d turn =
+      (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
+       AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
+  FixedTransform result;
+  result.rotation = turn.array().round();
+  result.translation = Vector3d(x, y, z);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    turn.col(i).cwiseAbs().maxCoeff(&result.axis[place]);
+    result.sign[place] = std::copysign(1.0, turn(result.axis[place], i));
+  }
+  return result;
+}
+
+inline Eigen::Vector3d column_after(const Eigen::Matrix3d& frame, const FixedTransform& fixed,
+                                    std::size_t i) {
+  return fixed.sign[i] * frame.col(fixed.axis[i]);
 }
 
 JointLimits make_limits() {
@@ -99,19 +114,23 @@ Frames link_frames(const JointVector& q) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < 7; ++i) {
     position += rotation * origins[i].translation;
-    rotation *= origins[i].rotation;
+    const Eigen::Vector3d x = column_after(rotation, origins[i], 0);
+    const Eigen::Vector3d y = column_after(rotation, origins[i], 1);
+    const Eigen::Vector3d z = column_after(rotation, origins[i], 2);
     const double c = std::cos(q[static_cast<Eigen::Index>(i)]);
     const double s = std::sin(q[static_cast<Eigen::Index>(i)]);
-    const Eigen::Vector3d x = rotation.col(0);
-    const Eigen::Vector3d y = rotation.col(1);
     rotation.col(0) = c * x + s * y;
     rotation.col(1) = c * y - s * x;
+    rotation.col(2) = z;
     frames.rotation[i] = rotation;
     frames.origin[i] = position;
   }
   frames.end_effector.setIdentity();
   frames.end_effector.translation() = position + rotation * origins[7].translation;
-  frames.end_effector.linear() = rotation * origins[7].rotation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    frames.end_effector.linear().col(static_cast<Eigen::Index>(i)) =
+        column_after(rotation, origins[7], i);
+  }
   return frames;
 }
 
@@ -130,11 +149,18 @@ Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& from,
                                             const Eigen::Isometry3d& to) {
   Eigen::Matrix<double, 6, 1> difference;
   difference.head<3>() = to.translation() - from.translation();
-  Eigen::Quaterniond rotation(to.linear() * from.linear().transpose());
-  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;
-  const double sine = rotation.vec().norm();
-  const double scale = sine > 1e-12 ? 2.0 * std::atan2(sine, rotation.w()) / sine : 2.0;
-  difference.tail<3>() = scale * rotation.vec();
+  // Below a right angle from its sine, which is exact for small ones.
+  const Eigen::Vector3d sine = 0.5 * (from.linear().col(0).cross(to.linear().col(0)) +
+                                      from.linear().col(1).cross(to.linear().col(1)) +
+                                      from.linear().col(2).cross(to.linear().col(2)));
+  const double cosine = 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
+  if (cosine > 0.0) {
+    const double length = sine.norm();
+    difference.tail<3>() = length > 1e-8 ? std::asin(std::min(length, 1.0)) / length * sine : sine;
+    return difference;
+  }
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
+  difference.tail<3>() = turn.angle() * turn.axis();
   return difference;
 }
 

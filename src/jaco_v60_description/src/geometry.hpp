@@ -22,15 +22,20 @@ constexpr double kForearm = 0.31105;
 constexpr double kElbowOffset = -0.0114;
 constexpr double kToolLength = 0.26375;  // from W along the tool axis
 
+// All of them turn by right angles: column i of the rotation is sign[i] times the unit vector
+// axis[i].
 struct FixedTransform {
   Eigen::Matrix3d rotation;
+  std::array<Eigen::Index, 3> axis;
+  std::array<double, 3> sign;
   Eigen::Vector3d translation;
 };
 
 // Origins of joints 1 to 7 in their parent links, then of the end effector in link 7.
 const std::array<FixedTransform, 8>& joint_origins();
 
-// Link frames 1 to 7 at [0] to [6], all in link_base; joint i turns about z of frame i.
+// Link frames 1 to 7 at [0] to [6], all in link_base; joint i turns about z of frame i. S, the
+// elbow and W are the origins of joints 2, 4 and 6.
 struct Frames {
   std::array<Eigen::Matrix3d, 7> rotation;
   std::array<Eigen::Vector3d, 7> origin;

@@ -2,7 +2,8 @@
 // Choice among the solutions of a pose.
 //   cost(q) = sum_i w_i (q_i - seed_i)^2 + limit_weight sum_{2,4,6} max(0, 1 - d_i /
 //   limit_margin)^2
-// First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost.
+// First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost,
+// pulled posture_step farther to a better posture.
 // It passes the shoulder's singularity, where the arm angle's branches exchange. If that does not
 // end close by within limits, the closed form is sampled on the feasible arcs of every branch, and
 // the cheapest are refined.
@@ -15,6 +16,7 @@
 
 #include "arm_angle.hpp"
 #include "closed_form.hpp"
+#include "pose_step.hpp"
 
 namespace jaco_v60_description {
 
@@ -33,25 +35,23 @@ class Cost {
     return sum;
   }
 
-  // Half the downhill gradient.
-  JointVector descent(const JointVector& q) const {
-    JointVector result = options_.weight.cwiseProduct(seed_ - q);
+  // How far to go from q along a direction of self-motion: Newton's step to the least cost, and
+  // posture_step or less toward a better posture.
+  double self_motion(const JointVector& q, const JointVector& direction) const {
+    JointVector descent = options_.weight.cwiseProduct(seed_ - q);
+    double curvature = direction.cwiseAbs2().dot(options_.weight);
     for (int i : {1, 3, 5}) {
+      const double depth = limit_depth(q, i);
+      if (depth == 0.0) continue;
       const double inward = q[i] < kPi ? 1.0 : -1.0;
-      result[i] += inward * options_.limit_weight * limit_depth(q, i) / options_.limit_margin;
-    }
-    return result;
-  }
-
-  // Half the second derivative along a direction.
-  double curvature(const JointVector& q, const JointVector& direction) const {
-    double sum = direction.cwiseAbs2().dot(options_.weight);
-    for (int i : {1, 3, 5}) {
-      if (limit_depth(q, i) == 0.0) continue;
       const double slope = direction[i] / options_.limit_margin;
-      sum += options_.limit_weight * slope * slope;
+      descent[i] += inward * options_.limit_weight * depth / options_.limit_margin;
+      curvature += options_.limit_weight * slope * slope;
     }
-    return sum;
+    double length = direction.dot(descent) / curvature;
+    const double pull = posture_pull(q, direction);
+    length += options_.posture_step * pull / std::hypot(pull, kGentlePull);
+    return length;
   }
 
   // Continuous joints in the turn nearest to the seed.
@@ -68,6 +68,23 @@ class Cost {
     return std::max(0.0, 1.0 - distance / options_.limit_margin);
   }
 
+  // Joints 2 and 6 away from limits and from their singularity at pi: each 0 from the margin on, at
+  // most 1. (Joint 4 does not depend on the self-motion.)
+  double posture_pull(const JointVector& q, const JointVector& direction) const {
+    constexpr double kPeak = 2.598;  // 1 / max of u (1 - u^2)
+    double pull = 0.0;
+    for (int i : {1, 5}) {
+      const double from_pi = q[i] - kPi;
+      const double to_limit = jaco_joint_limits().upper[i] - kPi - std::abs(from_pi);
+      const double u = from_pi / options_.posture_margin;
+      const double away = std::abs(u) < 1.0 ? kPeak * u * (1.0 - u * u) : 0.0;
+      const double depth = std::clamp(1.0 - to_limit / options_.posture_margin, 0.0, 1.0);
+      pull += direction[i] * (away - std::copysign(depth, from_pi));
+    }
+    return pull;
+  }
+
+  static constexpr double kGentlePull = 0.03;  // below this the step becomes smaller
   JointVector seed_;
   IkOptions options_;
 };
@@ -89,26 +106,32 @@ double limited_length(const JointVector& q, const JointVector& direction, double
   return least <= most ? std::clamp(length, least, most) : length;
 }
 
-// Sequential quadratic steps on min cost(q) subject to forward(q) = pose and the limits, then the
-// polish.
-bool descend(const Eigen::Isometry3d& pose, const Cost& cost, JointVector* q) {
-  constexpr int kIterations = 10;
-  constexpr double kSettled = 1e-8;     // [rad]
+// Sequential quadratic steps on min cost(q) subject to forward(q) = pose and the limits; when the
+// self-motion has settled, Newton alone. `frames` become those of q.
+bool descend(const Eigen::Isometry3d& pose, const Cost& cost, JointVector* q, Frames* frames) {
+  constexpr int kDescents = 10;
+  constexpr int kIterations = 22;
+  constexpr double kSettled = 1e-4;     // [rad]; the next step is a tenth or less
   constexpr double kLargestStep = 0.3;  // [rad] in the norm of q
+  bool settled = false;
   for (int i = 0; i < kIterations; ++i) {
-    const Frames frames = link_frames(*q);
-    const LeastStep least(jacobian(frames));
-    JointVector step = least.solve(pose_difference(frames.end_effector, pose));
+    *frames = link_frames(*q);
+    const auto difference = pose_difference(frames->end_effector, pose);
+    if (settled && difference.norm() < kPoseGoal) return within_limits(*q);
+    auto [step, direction] = pose_step(*frames, difference);
     if (step.norm() > kLargestStep) step *= kLargestStep / step.norm();
-    const JointVector moved = *q + step;
-    const JointVector direction = least.self_motion();
-    const double downhill = direction.dot(cost.descent(moved)) / cost.curvature(moved, direction);
-    const double length = limited_length(moved, direction, downhill);
-    step += std::clamp(length, -kLargestStep, kLargestStep) * direction;
+    if (!settled) {
+      const JointVector moved = *q + step;
+      const double wanted = cost.self_motion(moved, direction);
+      const double length =
+          std::clamp(limited_length(moved, direction, wanted), -kLargestStep, kLargestStep);
+      step += length * direction;
+      settled = i + 1 == kDescents || std::abs(length) < kSettled;
+    }
     *q += step;
-    if (step.norm() < kSettled) break;
   }
-  return polish(pose, q) && within_limits(*q);
+  *frames = link_frames(*q);
+  return pose_errors(*frames, pose).met() && within_limits(*q);
 }
 
 struct Candidate {
@@ -158,30 +181,35 @@ std::vector<Candidate> sample_arcs(const Eigen::Isometry3d& pose, const ElbowCir
   return candidates;
 }
 
-// Of the first candidates that lead to a solution, the cheapest.
+// Of `best` and the first candidates that lead to a solution, the cheapest.
 std::optional<JointVector> best_solution(const Eigen::Isometry3d& pose, const Cost& cost,
-                                         const std::vector<Candidate>& candidates) {
+                                         const std::vector<Candidate>& candidates,
+                                         std::optional<JointVector> best) {
   constexpr int kCompared = 4;
-  std::optional<JointVector> best;
-  int found = 0;
+  int found = best ? 1 : 0;
+  Frames frames;
   for (const Candidate& candidate : candidates) {
-    JointVector exact = candidate.q;
-    const bool exact_solves = polish(pose, &exact) && within_limits(exact);
-    JointVector descended = candidate.q;
-    const bool descent_solves = descend(pose, cost, &descended);
-    if (!exact_solves && !descent_solves) continue;
-    const bool take_descended =
-        descent_solves && (!exact_solves || cost.value(descended) < cost.value(exact));
-    const JointVector q = cost.unwrapped(take_descended ? descended : exact);
+    if (found == kCompared) break;
+    JointVector q = candidate.q;
+    if (!descend(pose, cost, &q, &frames)) {
+      q = candidate.q;
+      if (!polish(pose, &q) || !within_limits(q)) continue;
+    }
+    ++found;
+    q = cost.unwrapped(q);
     if (!best || cost.value(q) < cost.value(*best)) best = q;
-    if (++found == kCompared) break;
   }
   return best;
 }
 
+IkResult result_of(IkStatus status, const JointVector& q, const Frames& frames,
+                   const Eigen::Isometry3d& pose) {
+  const PoseErrors errors = pose_errors(frames, pose);
+  return {status, q, arm_angle(frames), errors.position, errors.orientation};
+}
+
 IkResult result_of(IkStatus status, const JointVector& q, const Eigen::Isometry3d& pose) {
-  const PoseErrors errors = pose_errors(q, pose);
-  return {status, q, arm_angle(q), errors.position, errors.orientation};
+  return result_of(status, q, link_frames(q), pose);
 }
 
 }  // namespace
@@ -201,6 +229,14 @@ void IkOptions::validate() const {
     throw std::invalid_argument("limit_weight = " + std::to_string(limit_weight) +
                                 " rad^2 must not be below 0");
   }
+  if (!(std::isfinite(posture_margin) && posture_margin > 0.0)) {
+    throw std::invalid_argument("posture_margin = " + std::to_string(posture_margin) +
+                                " rad must be above 0");
+  }
+  if (!(std::isfinite(posture_step) && posture_step >= 0.0)) {
+    throw std::invalid_argument("posture_step = " + std::to_string(posture_step) +
+                                " rad must not be below 0");
+  }
 }
 
 IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkOptions& options) {
@@ -211,8 +247,10 @@ IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const I
   const Cost cost(seed, options);
 
   JointVector near = seed;
-  if (descend(target, cost, &near) && (near - seed).cwiseAbs().maxCoeff() < kNear) {
-    return result_of(IkStatus::kSolved, near, target);
+  Frames frames;
+  const bool met = descend(target, cost, &near, &frames);
+  if (met && (near - seed).cwiseAbs().maxCoeff() < kNear) {
+    return result_of(IkStatus::kSolved, near, frames, target);
   }
 
   const Eigen::Vector3d wrist = target.translation() - kToolLength * target.linear().col(2);
@@ -221,10 +259,11 @@ IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const I
   if (!circle) return result_of(IkStatus::kOutOfReach, seed, target);
 
   const double seed_phi = seed_arm_angle(*circle, seed);
+  std::optional<JointVector> first;
+  if (met) first = cost.unwrapped(near);
   for (const int samples : {1, 12}) {
-    auto candidates = sample_arcs(target, *circle, seed_phi, cost, samples);
-    candidates.insert(candidates.begin(), {0.0, seed});
-    const auto q = best_solution(target, cost, candidates);
+    const auto candidates = sample_arcs(target, *circle, seed_phi, cost, samples);
+    const auto q = best_solution(target, cost, candidates, first);
     if (q) return result_of(IkStatus::kSolved, *q, target);
   }
   return result_of(IkStatus::kNoSolutionWithinLimits, seed, target);

@@ -69,6 +69,7 @@ TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   std::mt19937 generator(12);
   IkOptions options;
   options.limit_weight = 0.0;
+  options.posture_step = 0.0;
   for (int trial = 0; trial < 1000; ++trial) {
     const JointVector q = random_joints(&generator);
     const IkResult result = inverse(forward(q), q, options);
@@ -82,6 +83,7 @@ TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
   constexpr int kPoses = 2000;
   IkOptions options;
   options.limit_weight = 0.0;
+  options.posture_step = 0.0;
   std::mt19937 generator(17);
   std::uniform_real_distribution<> offset(-0.7, 0.7);
   int nearest = 0;
@@ -196,6 +198,43 @@ TEST(JacoInverse, MovesAwayFromALimitWhileThePoseStands) {
   EXPECT_GT(q[1], before + 0.05);
 }
 
+// Each answer is the next seed, the pose stands.
+void drift(int calls, JointVector* q) {
+  IkOptions options;
+  options.limit_weight = 0.0;
+  const Eigen::Isometry3d pose = forward(*q);
+  for (int call = 0; call < calls; ++call) {
+    const IkResult result = inverse(pose, *q, options);
+    ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
+    ASSERT_LE((result.q - *q).norm(), options.posture_step + 1e-6) << "call " << call;
+    *q = result.q;
+  }
+}
+
+TEST(JacoInverse, DriftsFromSingularitiesAndLimitsInSmallSteps) {
+  constexpr int kCalls = 4000;
+  for (const int joint : {1, 5}) {
+    const double range = jaco_joint_limits().upper[joint] - M_PI;
+    for (const double side : {-1.0, 1.0}) {
+      JointVector q = ready_joints();
+      q[joint] = M_PI + 0.2 * side;
+      ASSERT_NO_FATAL_FAILURE(drift(kCalls, &q));
+      EXPECT_GT(side * (q[joint] - M_PI), 0.35) << "joint " << joint + 1 << " side " << side;
+      q = ready_joints();
+      q[joint] = M_PI + side * (range - 0.2);
+      ASSERT_NO_FATAL_FAILURE(drift(kCalls, &q));
+      EXPECT_LT(side * (q[joint] - M_PI), range - 0.35)
+          << "joint " << joint + 1 << " side " << side;
+    }
+  }
+}
+
+TEST(JacoInverse, DoesNotDriftInTheMiddle) {
+  JointVector q = ready_joints();
+  ASSERT_NO_FATAL_FAILURE(drift(100, &q));
+  EXPECT_LT((q - ready_joints()).norm(), 1e-9);
+}
+
 TEST(JacoInverse, GivesTheSameAnswerTwice) {
   std::mt19937 generator(15);
   for (int trial = 0; trial < 100; ++trial) {
@@ -281,6 +320,12 @@ TEST(JacoInverse, RefusesWhatIsNoPoseSeedOrOption) {
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
   options = IkOptions();
   options.limit_margin = -0.1;
+  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
+  options = IkOptions();
+  options.posture_margin = 0.0;
+  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
+  options = IkOptions();
+  options.posture_step = -1e-4;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
   options = IkOptions();
   options.limit_weight = -1.0;

@@ -2,6 +2,7 @@
 #include "prf_control/setpoint_follower.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 namespace prf_control {
 namespace {
 
+using jaco_v60_description::IkOptions;
 using jaco_v60_description::IkResult;
 using jaco_v60_description::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
@@ -159,9 +161,10 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   };
 
   // An arm that lags behind its goal is better served by the solution nearest to where it is.
-  IkResult solution = jaco_v60_description::inverse(pose, state().position);
+  const IkOptions options = posture_options(dt);
+  IkResult solution = jaco_v60_description::inverse(pose, state().position, options);
   if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
-    solution = jaco_v60_description::inverse(pose, reference);
+    solution = jaco_v60_description::inverse(pose, reference, options);
   }
   const bool solved = solution.status == IkStatus::kSolved;
   const JointVector q =
@@ -183,13 +186,26 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt)}, -1, 0.0};
 }
 
+// The posture improves while the command is on its goal, not on the way there.
+IkOptions SetpointFollower::posture_options(double dt) const {
+  constexpr double kOnGoal = 1e-6;  // [rad]
+  const bool on_goal = goal_ && (state().position - *goal_).cwiseAbs().maxCoeff() < kOnGoal;
+  IkOptions options;
+  options.posture_step =
+      on_goal ? std::min(kPostureSpeed * dt, 0.8 * params_.acceleration * dt * dt) : 0.0;
+  return options;
+}
+
 // Zero where the pose one period ago has no solution near the goal: the goal came from nowhere.
 JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal,
                                             double dt) const {
   if (setpoint.linear_velocity.isZero(0.0) && setpoint.angular_velocity.isZero(0.0)) {
     return JointVector::Zero();
   }
-  const IkResult before = jaco_v60_description::inverse(moved_back(setpoint, dt), goal);
+  IkOptions nearest;
+  nearest.limit_weight = 0.0;
+  nearest.posture_step = 0.0;
+  const IkResult before = jaco_v60_description::inverse(moved_back(setpoint, dt), goal, nearest);
   const JointVector step = goal - before.q;
   const bool continuous =
       before.status == IkStatus::kSolved && step.cwiseAbs().maxCoeff() <= params_.max_joint_step;

@@ -59,6 +59,11 @@ struct IkOptions {
   // limit.
   double limit_margin = 0.3;    // [rad], > 0
   double limit_weight = 0.001;  // [rad^2], >= 0; small: continuity comes first
+  // Beside that, at most posture_step of self-motion from the nearest solution while joint 2 or 6
+  // is within posture_margin of a limit or of its singularity at pi, away from there: with the
+  // answer as the next seed, a steady drift.
+  double posture_margin = 0.5;   // [rad], > 0
+  double posture_step = 0.0004;  // [rad] in the norm of q, >= 0; 0.04 rad/s at 100 Hz
 
   void validate() const;
 };

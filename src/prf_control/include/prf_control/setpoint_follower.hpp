@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a moving pose of the hand to joint positions and velocities, one control period at a time.
 //
-//   goal      q_g = inverse(T), the solution nearest to the joints as they are;
+//   goal      q_g = inverse(T), the solution nearest to the joints as they are, drifting by
+//             kPostureSpeed at most away from limits and singularities;
 //             T out of reach: the nearest pose (nearest_pose.hpp);
 //             a jump of a joint by more than max_joint_step, though T moved little (a change of
 //             branch): refused, the goal takes a damped step along the Jacobian instead; refused
@@ -38,6 +39,10 @@ struct FollowerParams {
 
 // Share of the velocity limits that a change of branch may use: the hand leaves its path meanwhile.
 inline constexpr double kBranchChangeSpeed = 0.25;
+
+// Speed of the self-motion toward a better posture, norm of all joints; slower where the
+// acceleration limit asks for it, so that the drift can start and end within one period.
+inline constexpr double kPostureSpeed = 0.04;  // [rad/s]
 
 struct PoseSetpoint {
   Eigen::Isometry3d hand_in_base = Eigen::Isometry3d::Identity();
@@ -82,6 +87,7 @@ class SetpointFollower {
  private:
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
+  jaco_v60_description::IkOptions posture_options(double dt) const;
   void forget_set_points();
   MotionState hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
