@@ -3,9 +3,9 @@
 
 CSV    columns time, x, y, z, qx, qy, qz, qw in any order, others are ignored; `#` begins a comment.
 bag    joint_states, tf and tag_detections; the target is where the tag is seen at the end.
-HDF5   groups `joint_state_info` and `toolpose_info` with toolpose_positions (n, 3) m,
-       toolpose_orientations (n, 4) x y z w, and toolpose_time (or joint_time of the other group):
-       seconds (n,), or seconds and nanoseconds (n, 2).
+HDF5   what the authors' public recorders write: the group `toolpose_info` or `transform_info` with
+       <name>_positions (n, 3) m, <name>_orientations (n, 4) x y z w and <name>_time, else joint_time
+       of the group `joint_state_info`, row by row: seconds and nanoseconds (n, 2), or seconds (n,).
 
 CSV and HDF5 files do not say where the target was: tell it with --target-pose, else it is taken to
 be where the camera on the hand would have it at the end of the skill, at the stand-off on its axis.
@@ -21,6 +21,11 @@ from prf_experiments.demonstration import DemonstrationError
 
 CAMERA_IN_HAND = [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0]
 TAG_BEFORE_CAMERA = [0.0, 0.0, judge.STAND_OFF, 1.0, 0.0, 0.0, 0.0]  # upright, facing the camera
+# The arm's recording of the ELTE repository (github.com/brenhertel/ELTE, scripts/elte_3d_box.py reads
+# its joint_state_info and toolpose_info), and the recorders of github.com/brenhertel/pearl_ur5e
+# (src/scripts/demo_record_*.py: transform_info). toolpose_time is named after the others' pattern;
+# neither repository shows a recorder that writes it.
+HAND_GROUPS = ("toolpose", "transform")
 MIN_NORM = 0.5  # of a recorded quaternion; what is shorter says nothing
 
 
@@ -78,10 +83,11 @@ def read_hdf5(path):
     except OSError as error:
         raise DemonstrationError(f"{path}: cannot be read: {error}") from None
     with file:
-        positions = dataset(file, path, ["toolpose_info/toolpose_positions"], 3)
-        orientations = dataset(file, path, ["toolpose_info/toolpose_orientations"], 4)
-        times = seconds(dataset(file, path, ["toolpose_info/toolpose_time",
-                                             "joint_state_info/joint_time"], None))
+        group = next((each for each in HAND_GROUPS if f"{each}_info" in file), HAND_GROUPS[0])
+        hand = f"{group}_info/{group}"
+        positions = dataset(file, path, [f"{hand}_positions"], 3)
+        orientations = dataset(file, path, [f"{hand}_orientations"], 4)
+        times = seconds(dataset(file, path, [f"{hand}_time", "joint_state_info/joint_time"], None))
     if not len(times) == len(positions) == len(orientations):
         raise DemonstrationError(f"{path}: {len(times)} times, {len(positions)} positions and "
                                  f"{len(orientations)} orientations")

@@ -71,6 +71,16 @@ class Imports(unittest.TestCase):
                          **{"toolpose_info/toolpose_time": TIMES})
         self.assert_is_the_motion(imports.convert(path, None, "test"))
 
+    def test_hdf5_as_the_recorders_of_a_transform_write_it(self):
+        poses, stamps = motion(), 1_684_779_652 + TIMES
+        with h5py.File(self.path("demo.h5"), "w") as file:
+            file["joint_state_info/joint_time"] = np.zeros((len(TIMES), 2))  # not the hand's
+            file["transform_info/transform_time"] = np.column_stack(
+                [np.floor(stamps), np.round(1e9 * (stamps % 1.0))])
+            file["transform_info/transform_positions"] = poses[:, :3]
+            file["transform_info/transform_orientations"] = poses[:, 3:]
+        self.assert_is_the_motion(imports.convert(self.path("demo.h5"), None, "test"))
+
     def test_table_with_columns_in_any_order(self):
         self.assert_is_the_motion(imports.convert(self.csv(), None, "test"))
 
