@@ -28,10 +28,10 @@ def choice(*values):
 
 def boolean():
     def parse(text):
-        if text.lower() not in ("true", "false"):
+        if text.lower() not in ("true", "on", "false", "off"):
             raise ValueError
-        return text.lower() == "true"
-    return {"valid": "true|false", "parse": parse}
+        return text.lower() in ("true", "on")
+    return {"valid": "true|false|on|off", "parse": parse}
 
 
 def integer(low, high):

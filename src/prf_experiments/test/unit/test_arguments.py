@@ -24,6 +24,10 @@ class Arguments(unittest.TestCase):
         self.assertEqual(values, {"motion": "none", "framework": False, "seed": 7, "limit": 2.5,
                                   "results": os.path.abspath("there")})
 
+    def test_on_and_off_are_true_and_false(self):
+        for word, value in (("on", True), ("off", False), ("OFF", False), ("true", True)):
+            self.assertIs(args.parse([f"framework:={word}"], VALID)["framework"], value)
+
     def test_refuses_what_is_not_valid_and_names_it(self):
         for word, words in (("motion:=wild", "none|light"), ("framework:=maybe", "true|false"),
                             ("seed:=-1", "0..9"), ("seed:=1.5", "seed"), ("limit:=nan", "limit"),

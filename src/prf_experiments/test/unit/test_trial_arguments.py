@@ -46,7 +46,10 @@ class TrialArguments(unittest.TestCase):
     def test_lists_are_parsed_value_by_value(self):
         self.assertEqual(args.parse_lists(["seed:=3,5", "framework:=false"], trial_arguments.TRIAL),
                          {"seed": [3, 5], "framework": [False]})
+        self.assertEqual(args.parse_lists(["framework:=off,on"], trial_arguments.TRIAL),
+                         {"framework": [False, True]})
         for word, why in (("seed:=3,x", "invalid seed:=x"), ("seed:=3,3", "twice"),
+                          ("framework:=on,true", "twice"),
                           ("seed:=", "invalid seed:="), ("speed:=1", "unknown"),
                           ("seed", "name:=value")):
             with self.assertRaises(args.ArgumentError) as caught:
