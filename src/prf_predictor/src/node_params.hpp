@@ -64,7 +64,7 @@ inline NodeParams load(const ros::NodeHandle& private_node) {
   params.measurement_scale = parameters.number("measurement_scale");
   params.defaults = {parameters.number("position_sigma"), parameters.number("orientation_sigma")};
   params.tracker.gate_probability = parameters.number("gate_probability");
-  params.tracker.gate_sigma = parameters.number("gate_sigma");
+  params.tracker.gate_speed = parameters.number("gate_speed");
   params.tracker.orientation_gate_sigma = parameters.number("orientation_gate_sigma");
   params.tracker.reacquire_hits = parameters.integer("reacquire_hits");
   params.tracker.coast_after = parameters.number("coast_after");

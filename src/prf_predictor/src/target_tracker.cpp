@@ -26,13 +26,13 @@ double squared_distance(const Eigen::Vector3d& residual, const Eigen::Matrix3d& 
 
 // By the Mahalanobis distance to where the target is expected now.
 Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasurement>& sights,
-                   double gate_sigma) {
+                   double widening) {
   const PointForecast expected = target.forecast(0);
   Nearest nearest;
   for (const TagMeasurement& sight : sights) {
     const Eigen::Vector3d residual = sight.position - expected.position;
     const Eigen::Matrix3d S = expected.covariance.topLeftCorner<3, 3>() + sight.position_covariance;
-    const Eigen::Matrix3d widened = S + std::pow(gate_sigma, 2) * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d widened = S + std::pow(widening, 2) * Eigen::Matrix3d::Identity();
     const double distance = squared_distance(residual, widened);
     if (distance < nearest.distance) nearest = {&sight, squared_distance(residual, S), distance};
   }
@@ -52,8 +52,8 @@ double squared_distance(const OrientationForecast& expected, const TagMeasuremen
 void validate(const TrackerParams& params) {
   require(params.gate_probability > 0.5 && params.gate_probability < 1, "gate_probability",
           params.gate_probability, "> 0.5 and < 1");
-  require(params.gate_sigma >= 0 && std::isfinite(params.gate_sigma), "gate_sigma",
-          params.gate_sigma, "finite and >= 0 m");
+  require(params.gate_speed >= 0 && std::isfinite(params.gate_speed), "gate_speed",
+          params.gate_speed, "finite and >= 0 m/s");
   require(params.orientation_gate_sigma >= 0 && std::isfinite(params.orientation_gate_sigma),
           "orientation_gate_sigma", params.orientation_gate_sigma, "finite and >= 0 rad");
   require(params.reacquire_hits >= 2, "reacquire_hits", params.reacquire_hits, ">= 2");
@@ -131,7 +131,7 @@ TrackState TargetTracker::step(const TrackState& before, Nanoseconds stamp,
     state.reinitialised = !target.is_finite();
     state.belief.reset();
     if (!state.reinitialised) {
-      state.measured = accept(target, sights, state);
+      state.measured = accept(target, sights, seconds(stamp - state.last_accepted), state);
       state.belief = Belief{std::move(target.motion), std::move(target.rotation)};
     }
   }
@@ -160,8 +160,8 @@ Belief TargetTracker::begin(const TagMeasurement& sight) const {
 }
 
 bool TargetTracker::accept(Moving& target, const std::vector<TagMeasurement>& sights,
-                           TrackState& state) const {
-  const Nearest nearest = nearest_to(*target.motion, sights, params_.gate_sigma);
+                           double unseen, TrackState& state) const {
+  const Nearest nearest = nearest_to(*target.motion, sights, params_.gate_speed * unseen);
   if (nearest.sight == nullptr) return false;
   state.nis = nearest.nis;
   if (!(nearest.distance <= gate_)) return false;
@@ -183,9 +183,10 @@ void TargetTracker::pursue_candidate(TrackState& state,
   auto& candidate = state.candidate;
   if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
   if (candidate) {
-    Moving target(candidate->belief, seconds(state.stamp - candidate->stamp));
+    const double unseen = seconds(state.stamp - candidate->stamp);
+    Moving target(candidate->belief, unseen);
     TrackState of_candidate;
-    if (accept(target, sights, of_candidate)) {
+    if (accept(target, sights, unseen, of_candidate)) {
       candidate->belief = {std::move(target.motion), std::move(target.rotation)};
       candidate->stamp = state.stamp;
       ++candidate->hits;

@@ -280,7 +280,7 @@ class TargetPredictorParameters(unittest.TestCase):
         ("acceleration_density", float("nan")), ("orientation_gate_sigma", -1.0),
         ("velocity_time_constant", 0.0),
         ("jerk_density", 1.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
-        ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_sigma", -0.001), ("measurement_scale", 0.0), ("reacquire_hits", 1),
+        ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_speed", -0.001), ("measurement_scale", 0.0), ("reacquire_hits", 1),
         ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
     ]
 

@@ -24,7 +24,7 @@ const Eigen::Vector3d kHome(0.9, 0.05, 0.3);
 TrackerParams good_params() {
   TrackerParams params;
   params.gate_probability = 0.9999;
-  params.gate_sigma = 0.005;
+  params.gate_speed = 0.15;
   params.orientation_gate_sigma = 0.015;
   params.reacquire_hits = 5;
   params.coast_after = 0.15;
@@ -169,6 +169,20 @@ TEST(TargetTracker, FollowsAJerkOfSomeMillimetresButNotOfCentimetres) {
   }
 }
 
+// Out of the image for a moment just when a foot slips: what was learnt of the target must not go.
+TEST(TargetTracker, OpensTheGateTheLongerTheTargetWasNotSeen) {
+  for (const int missed : {0, 3, 9}) {
+    auto tracker = make_tracker({1e-4, 0.6});
+    rest(tracker, 60);
+    for (int i = 0; i < missed; ++i) tracker.process((60 + i) * kFrame, {});
+    const auto jerked = sight_at(kHome + Eigen::Vector3d(0, 0.07, 0));
+    EXPECT_EQ(tracker.process((60 + missed) * kFrame, {jerked}).state.measured, missed > 0)
+        << missed;
+    const auto ghost = sight_at(kHome + Eigen::Vector3d(0, 0.5, 0));
+    EXPECT_FALSE(tracker.process((61 + missed) * kFrame, {ghost}).state.measured) << missed;
+  }
+}
+
 TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -293,7 +307,7 @@ TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
   const BadValue catalogue[] = {
       {"orientation_gate_sigma", [](TrackerParams& p) { p.orientation_gate_sigma = NAN; }},
       {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
-      {"gate_sigma", [](TrackerParams& p) { p.gate_sigma = -1; }},
+      {"gate_speed", [](TrackerParams& p) { p.gate_speed = -1; }},
       {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},
       {"coast_after", [](TrackerParams& p) { p.coast_after = NAN; }},
       {"lost_after", [](TrackerParams& p) { p.lost_after = 0.1; }},

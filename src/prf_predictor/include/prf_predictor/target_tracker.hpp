@@ -3,7 +3,7 @@
 // any TargetPredictor, one of which has the position, another one the orientation.
 //
 // For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
-// if its Mahalanobis distance, by the covariance widened by gate_sigma, passes the gate, correct
+// if its Mahalanobis distance, by the covariance widened by gate_speed, passes the gate, correct
 // (the orientation has a gate of its own: a flipped one is dropped, the position kept). A sight
 // outside the gate starts a candidate, which replaces the target once `reacquire_hits` sights in a
 // row were consistent with it while none passed the gate. Without accepted sights the target coasts
@@ -30,7 +30,8 @@ using Nanoseconds = std::int64_t;
 
 struct TrackerParams {
   double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
-  double gate_sigma = 0.0;        // m, >= 0, of jerks that no filter foresees; widens the gate
+  double gate_speed = 0.0;        // m/s, >= 0, of jerks that no filter foresees; times the time
+                                  // since the last accepted sight it widens the gate
   double orientation_gate_sigma = 0.0;  // rad, the same
   int reacquire_hits = 0;               // >= 2
   double coast_after = 0.0;             // s without accepted sight, > 0
@@ -116,7 +117,9 @@ class TargetTracker {
   [[nodiscard]] TrackState step(const TrackState& before, Nanoseconds stamp,
                                 const std::vector<TagMeasurement>& sights) const;
   [[nodiscard]] Belief begin(const TagMeasurement& sight) const;
-  bool accept(Moving& target, const std::vector<TagMeasurement>& sights, TrackState& state) const;
+  // unseen: time since the last accepted sight, s.
+  bool accept(Moving& target, const std::vector<TagMeasurement>& sights, double unseen,
+              TrackState& state) const;
   void pursue_candidate(TrackState& state, const std::vector<TagMeasurement>& sights) const;
   void settle_status(TrackState& state) const;
 
