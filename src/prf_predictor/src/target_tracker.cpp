@@ -159,8 +159,8 @@ Belief TargetTracker::begin(const TagMeasurement& sight) const {
                                  *predictor_, sight.orientation, sight.orientation_covariance)};
 }
 
-bool TargetTracker::accept(Moving& target, const std::vector<TagMeasurement>& sights,
-                           double unseen, TrackState& state) const {
+bool TargetTracker::accept(Moving& target, const std::vector<TagMeasurement>& sights, double unseen,
+                           TrackState& state) const {
   const Nearest nearest = nearest_to(*target.motion, sights, params_.gate_speed * unseen);
   if (nearest.sight == nullptr) return false;
   state.nis = nearest.nis;
