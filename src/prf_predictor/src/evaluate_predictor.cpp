@@ -51,17 +51,21 @@ void print_list(const char* name, const std::vector<double>& values, const char*
   std::printf("]");
 }
 
-// Squared error and NEES of one horizon, summed, and NEES of every image.
+// Squared errors of one horizon, summed, and NEES of every image.
 struct HorizonFigures {
   int count = 0;
   double squared_error = 0.0;
-  std::vector<double> nees;  // NaN where there is no truth
+  double squared_angle = 0.0;
+  std::vector<double> nees;
 
-  void add(const PointForecast& forecast, const std::optional<Eigen::Vector3d>& truth) {
+  void add(const Belief& belief, double ahead, const std::optional<RecordedMotion::Pose>& truth) {
     if (!truth) return;
-    const Eigen::Vector3d error = forecast.position - *truth;
+    const PointForecast forecast = belief.motion->forecast(ahead);
+    const Eigen::Vector3d error = forecast.position - truth->position;
     ++count;
     squared_error += error.squaredNorm();
+    squared_angle += std::pow(
+        belief.rotation->forecast(ahead).orientation.angularDistance(truth->orientation), 2);
     const Eigen::Matrix3d P = forecast.covariance.topLeftCorner<3, 3>();
     nees.push_back(error.dot(P.llt().solve(error)));
   }
@@ -72,7 +76,9 @@ void evaluate(const Task& task, const std::string& path, std::uint32_t seed) {
   TargetTracker tracker(kTracker, make_predictor(task.predictor.predictor, task.predictor.values));
   std::vector<HorizonFigures> figures(task.horizons.size());
   std::vector<double> nis;
+  std::vector<double> orientation_nis;
   int gated = 0;
+  int orientation_gated = 0;
   int steps = 0;
   std::chrono::duration<double> busy{0};
   for (const Sighting& sighting : see(motion, kRate, seed)) {
@@ -82,23 +88,32 @@ void evaluate(const Task& task, const std::string& path, std::uint32_t seed) {
     busy += std::chrono::steady_clock::now() - begin;
     ++steps;
     gated += state.gated ? 1 : 0;
+    orientation_gated += state.orientation_gated ? 1 : 0;
     if (1e-9 * static_cast<double>(sighting.stamp) < task.warm_up || !state.belief) continue;
     if (state.nis > 0) nis.push_back(state.nis);
+    if (state.orientation_nis > 0) orientation_nis.push_back(state.orientation_nis);
     for (std::size_t i = 0; i < figures.size(); ++i) {
       const double ahead = task.horizons[i] + task.latency;
-      figures[i].add(state.belief->motion->forecast(ahead), motion.at(t + ahead));
+      figures[i].add(*state.belief, ahead, motion.at(t + ahead));
     }
   }
-  std::printf("{\"seed\": %u, \"step_us\": %.3f, \"gated\": %d", seed,
-              1e6 * busy.count() / std::max(steps, 1), gated);
+  std::printf("{\"seed\": %u, \"step_us\": %.3f, \"gated\": %d, \"orientation_gated\": %d", seed,
+              1e6 * busy.count() / std::max(steps, 1), gated, orientation_gated);
+  std::printf(", \"images\": %d", steps);
   std::vector<double> counts;
   std::vector<double> squared;
+  std::vector<double> squared_angles;
   for (const HorizonFigures& figure : figures) {
     counts.push_back(figure.count);
     squared.push_back(figure.squared_error);
+    squared_angles.push_back(figure.squared_angle);
   }
   print_list("count", counts);
   print_list("squared_error_m2", squared, "%.9g");
+  if (!motion.orientation.empty()) {
+    print_list("squared_angle_rad2", squared_angles, "%.9g");
+    print_list("orientation_nis", orientation_nis, "%.4g");
+  }
   print_list("nis", nis, "%.4g");
   std::printf(", \"nees\": [");
   for (std::size_t i = 0; i < figures.size(); ++i) {

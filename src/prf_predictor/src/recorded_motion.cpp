@@ -11,11 +11,11 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kLongestGap = 0.05;  // s between rows
-constexpr double kLateral = 7e-5;     // m at 1 m
-constexpr double kAlong = 7e-4;       // m at 1 m
-constexpr double kFloor = 3e-4;       // m
-constexpr double kOrientationSigma = 0.003;
+constexpr double kLongestGap = 0.05;          // s between rows
+constexpr double kLateral = 7e-5;             // m at 1 m
+constexpr double kAlong = 7e-4;               // m at 1 m
+constexpr double kFloor = 3e-4;               // m
+constexpr double kOrientationSigma = 2.5e-3;  // rad
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
@@ -32,14 +32,20 @@ std::optional<std::size_t> find(const std::vector<std::string>& header, const st
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> RecordedMotion::at(double t) const {
+std::optional<RecordedMotion::Pose> RecordedMotion::at(double t) const {
   const auto after = std::lower_bound(time.begin(), time.end(), t);
   if (after == time.end()) return std::nullopt;
   const auto i = static_cast<std::size_t>(after - time.begin());
-  if (*after == t) return position[i];
-  if (i == 0 || time[i] - time[i - 1] > kLongestGap) return std::nullopt;
-  const double fraction = (t - time[i - 1]) / (time[i] - time[i - 1]);
-  return position[i - 1] + fraction * (position[i] - position[i - 1]);
+  const std::size_t before = *after == t ? i : i - 1;
+  if (i == 0 ? *after > t : time[i] - time[before] > kLongestGap) return std::nullopt;
+  const double width = time[i] - time[before];
+  const double fraction = width > 0 ? (t - time[before]) / width : 0.0;
+  Pose pose;
+  pose.position = position[before] + fraction * (position[i] - position[before]);
+  if (!orientation.empty()) {
+    pose.orientation = orientation[before].slerp(fraction, orientation[i]);
+  }
+  return pose;
 }
 
 RecordedMotion read_motion(const std::string& path, const std::array<std::string, 4>& columns) {
@@ -48,6 +54,7 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
   RecordedMotion motion;
   std::array<std::size_t, 4> own{};
   std::vector<std::size_t> camera;
+  std::vector<std::size_t> turn;
   std::size_t count = 0;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#') continue;
@@ -58,6 +65,10 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
         const auto found = find(cells, columns[i]);
         if (!found) throw std::invalid_argument(path + " has no column " + columns[i]);
         own[i] = *found;
+      }
+      const std::string prefix = columns[1].substr(0, columns[1].size() - 1);
+      for (const char* name : {"qx", "qy", "qz", "qw"}) {
+        if (const auto found = find(cells, prefix + name)) turn.push_back(*found);
       }
       for (const char* name : {"camera_x", "camera_y", "camera_z"}) {
         if (const auto found = find(cells, name)) camera.push_back(*found);
@@ -72,6 +83,11 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
       }
       motion.time.push_back(t);
       motion.position.emplace_back(number(own[1]), number(own[2]), number(own[3]));
+      if (turn.size() == 4) {
+        motion.orientation.push_back(
+            Eigen::Quaterniond(number(turn[3]), number(turn[0]), number(turn[1]), number(turn[2]))
+                .normalized());
+      }
       if (motion.time.size() > 1) continue;
       motion.camera = camera.size() == 3
                           ? Eigen::Vector3d(number(camera[0]), number(camera[1]), number(camera[2]))
@@ -96,7 +112,7 @@ std::vector<Sighting> see(const RecordedMotion& motion, double rate, std::uint32
     if (t > motion.time.back()) return sightings;
     Sighting sighting{since, {}};
     if (const auto truth = motion.at(t)) {
-      const Eigen::Vector3d view = *truth - motion.camera;
+      const Eigen::Vector3d view = truth->position - motion.camera;
       const double growth = view.squaredNorm();
       const Eigen::Vector3d along = view.normalized();
       TagMeasurement sight;
@@ -107,7 +123,10 @@ std::vector<Sighting> see(const RecordedMotion& motion, double rate, std::uint32
       const Eigen::Matrix3d root = sight.position_covariance.llt().matrixL();
       const double x = normal(random);
       const double y = normal(random);
-      sight.position = *truth + root * Eigen::Vector3d(x, y, normal(random));
+      sight.position = truth->position + root * Eigen::Vector3d(x, y, normal(random));
+      Eigen::Vector3d turn;
+      for (double& angle : turn) angle = kOrientationSigma * normal(random);
+      sight.orientation = rotation_of(turn) * truth->orientation;
       sight.orientation_covariance = std::pow(kOrientationSigma, 2) * Eigen::Matrix3d::Identity();
       sighting.sights.push_back(sight);
     }
