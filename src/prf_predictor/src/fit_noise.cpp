@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <nlopt.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -24,7 +25,10 @@ namespace {
 constexpr char kUsage[] =
     "usage: fit_noise BAG... [--predictor ukf] [--from FILE.yaml] [--out FILE.yaml]\n"
     "                 [--json FILE] [--tag 0] [--planning-frame j2s7s300_link_base]\n"
-    "  --from: starts from this predictor's file instead of the packaged one";
+    "                 [--measurement-scale FACTOR]\n"
+    "  --from: starts from this predictor's file instead of the packaged one\n"
+    "  --measurement-scale: keeps the scale of the measurements' covariance at this, 1e-4 .. 1e4\n"
+    "  --tag: number of the tag that is the target";
 constexpr double kLongestGap = 1.0;  // s without sight, after which the filter begins anew
 constexpr double kFarthest = 1e4;    // factor that a parameter may change by
 constexpr int kEvaluations = 300;
@@ -39,7 +43,24 @@ struct Options {
   std::string json;
   std::string planning_frame = "j2s7s300_link_base";
   int tag_id = 0;
+  std::optional<double> measurement_scale;
 };
+
+double number(const std::string& option, const std::string& text, double lowest, double highest) {
+  std::size_t used = 0;
+  double value = NAN;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !(value >= lowest && value <= highest)) {
+    std::ostringstream message;
+    message << option << " = " << text << ", must be a number " << lowest << " .. " << highest;
+    throw std::invalid_argument(message.str());
+  }
+  return value;
+}
 
 Options read_options(int argc, char** argv) {
   Options options;
@@ -64,7 +85,9 @@ Options read_options(int argc, char** argv) {
     } else if (word == "--planning-frame") {
       options.planning_frame = value;
     } else if (word == "--tag") {
-      options.tag_id = std::stoi(value);
+      options.tag_id = static_cast<int>(number(word, value, 0, 1e6));
+    } else if (word == "--measurement-scale") {
+      options.measurement_scale = number(word, value, 1e-4, 1e4);
     } else {
       throw std::invalid_argument("unknown option " + word + "\n" + kUsage);
     }
@@ -131,17 +154,19 @@ Figures follow(const PredictorFile& file, const Series& series, bool with_errors
   return figures;
 }
 
-// The parameters as a vector of logarithms, the measurement scale last; infinite ones stay.
+// The parameters as a vector of logarithms, the measurement scale last unless it is kept; infinite
+// ones stay.
 class Fit {
  public:
-  Fit(const PredictorFile& start, const Series& series) : start_(start), series_(series) {
+  Fit(const PredictorFile& start, const Series& series, bool keeps_measurement_scale)
+      : start_(start), series_(series), keeps_measurement_scale_(keeps_measurement_scale) {
     for (const auto& [key, value] : start.values) {
       if (std::isfinite(value)) keys_.push_back(key);
     }
   }
 
   PredictorFile run() {
-    std::vector<double> x(keys_.size() + 1, 0.0);
+    std::vector<double> x(keys_.size() + (keeps_measurement_scale_ ? 0 : 1), 0.0);
     nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
     search.set_max_objective(&Fit::objective, this);
     search.set_lower_bounds(-std::log(kFarthest));
@@ -169,12 +194,13 @@ class Fit {
   [[nodiscard]] PredictorFile at(const std::vector<double>& x) const {
     PredictorFile file = start_;
     for (std::size_t i = 0; i < keys_.size(); ++i) file.values[keys_[i]] *= std::exp(x[i]);
-    file.measurement_scale *= std::exp(x.back());
+    if (!keeps_measurement_scale_) file.measurement_scale *= std::exp(x.back());
     return file;
   }
 
   PredictorFile start_;
   const Series& series_;
+  bool keeps_measurement_scale_;
   std::vector<std::string> keys_;
   int evaluations_ = 0;
 };
@@ -213,19 +239,21 @@ void write(const std::string& path, const std::string& content) {
 }
 
 void run(const Options& options) {
-  const PredictorFile before = read_predictor_file(options.from);
+  PredictorFile before = read_predictor_file(options.from);
+  if (options.measurement_scale) before.measurement_scale = *options.measurement_scale;
   if (before.values.empty() || before.predictor == "periodic" || before.predictor == "sines" ||
       before.predictor == "autoregressive") {
     throw std::invalid_argument("predictor = " + before.predictor +
-                                ", must be one with a noise: ukf, paper, constant_velocity, "
-                                "constant_acceleration, oscillation, ekf");
+                                ", has no noise to fit (its covariance follows from how its "
+                                "forecasts proved), must be ukf, paper, constant_velocity, "
+                                "constant_acceleration, oscillation or ekf");
   }
   (void)make_predictor(before.predictor, before.values);
   Series series;
   for (const std::string& bag : options.bags) {
     series.push_back(sights_in_bag(bag, options.planning_frame, options.tag_id));
   }
-  const PredictorFile after = Fit(before, series).run();
+  const PredictorFile after = Fit(before, series, options.measurement_scale.has_value()).run();
   const Figures old_figures = follow(before, series, true);
   const Figures new_figures = follow(after, series, true);
 

@@ -21,6 +21,7 @@ PredictorFile read_predictor_file(const std::string& path) {
         file.values[key] = entry.second.as<double>();
       }
     }
+    if (file.predictor.empty()) throw std::invalid_argument(path + " names no predictor");
     return file;
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + " is no predictor's file: " + error.what());

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The commands, shortly, on inputs made here: figures with the right keys, bad arguments refused with
+code 2 and one line that names them."""
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rosbag
+import rospy
+import yaml
+from geometry_msgs.msg import TransformStamped
+from prf_msgs.msg import TagDetection, TagDetectionArray
+from tf2_msgs.msg import TFMessage
+
+BASE, CAMERA = "j2s7s300_link_base", "camera_optical_frame"
+HORIZONS_S = [0.1, 0.25, 0.5, 1.0, 2.0]
+FILTERPY = """
+class MerweScaledSigmaPoints:
+    def __init__(self, *arguments):
+        pass
+class UnscentedKalmanFilter:
+    def __init__(self, *arguments):
+        pass
+    def predict(self):
+        pass
+    def update(self, measured):
+        pass
+"""
+
+
+def swing(t):
+    return 0.9 + 0.05 * math.sin(2.4 * t), 0.01 * math.sin(7.0 * t), 0.3
+
+
+def write_motion(path):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("# a swing\ntime,x,y,z,qx,qy,qz,qw\n")
+        for k in range(700):
+            t = 0.01 * k
+            half = 0.05 * math.sin(2.4 * t)
+            numbers = (t, *swing(t), 0.0, 0.0, math.sin(half), math.cos(half))
+            file.write(",".join(f"{number:.9g}" for number in numbers) + "\n")
+
+
+def write_bag(path, images):
+    camera = TransformStamped(child_frame_id=CAMERA)
+    camera.header.frame_id, camera.transform.rotation.w = BASE, 1.0
+    with rosbag.Bag(path, "w") as bag:
+        bag.write("/tf_static", TFMessage([camera]), rospy.Time(1))
+        for k in range(images):
+            stamp = rospy.Time.from_sec(1.0 + k / 30)
+            array, tag = TagDetectionArray(), TagDetection(family="tag36h11", id=0)
+            array.header.stamp, array.header.frame_id = stamp, CAMERA
+            position = tag.pose.pose.position
+            position.x, position.y, position.z = swing(k / 30)
+            tag.pose.pose.orientation.w = 1.0
+            tag.pose.covariance = [1e-6 if i % 7 == 0 else 0.0 for i in range(36)]
+            array.detections.append(tag)
+            bag.write("/tag_detections", array, stamp)
+
+
+class Commands(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.motion, cls.bag = cls.path("motion.csv"), cls.path("trial.bag")
+        write_motion(cls.motion)
+        write_bag(cls.bag, 90)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.holder.name, name)
+
+    def run_command(self, name, *arguments, **environment):
+        command = roslib.packages.find_node("prf_predictor", name)[0]
+        return subprocess.run([command, *map(str, arguments)], text=True, check=False, timeout=60,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              env={**os.environ, **environment})
+
+    def figures(self, name, *arguments, **environment):
+        out = self.path(name + ".json")
+        done = self.run_command(name, *arguments, "--json", out, **environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out, encoding="utf-8") as file:
+            return json.load(file), done.stdout
+
+    def assert_refused(self, name, arguments, word):
+        with self.subTest(name=name, arguments=arguments):
+            done = self.run_command(name, *arguments)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn(word, done.stderr.strip().splitlines()[-1])
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_forecast_error_gives_position_and_orientation_at_every_horizon(self):
+        content, printed = self.figures("forecast_error", "--csv", self.motion, "--columns",
+                                        "time,x,y,z", "--warm-up", 1, "--predictors", "periodic",
+                                        "paper", "hold")
+        self.assertEqual(content["horizons_s"], HORIZONS_S)
+        of_motion = content["conditions"]["motion.csv"]
+        self.assertEqual(set(of_motion), {"periodic", "paper", "hold"})
+        for figures in of_motion.values():
+            self.assertEqual(figures["trials"], 1)
+            for key in ("rms_error_m", "rms_orientation_error_rad"):
+                self.assertEqual(len(figures[key]), len(HORIZONS_S))
+        # Half a second ahead a swing of 0.05 m and one of 0.1 rad have moved as these have.
+        rest = of_motion["hold"]
+        self.assertTrue(0.03 < rest["rms_error_m"][2] < 0.06, rest)
+        self.assertTrue(0.06 < rest["rms_orientation_error_rad"][2] < 0.12, rest)
+        self.assertIn("periodic / paper at worst", printed)
+
+    def test_consistency_gives_nis_and_nees_with_their_bounds(self):
+        content, _ = self.figures("consistency", "--csv", self.motion, "--columns", "time,x,y,z",
+                                  "--warm-up", 1, "--predictors", "ukf")
+        figures = content["conditions"]["motion.csv"]["ukf"]
+        self.assertEqual(len(figures["nees"]), len(HORIZONS_S))
+        for value in [figures["nis"], figures["orientation_nis"], *figures["nees"]]:
+            self.assertTrue(math.isfinite(value["mean"]))
+            self.assertTrue(0 <= value["within_bounds"] <= 1)
+        low, high = figures["bounds"]  # chi-square, 3 degrees of freedom, one trial
+        self.assertAlmostEqual(low, 0.216, delta=0.05)
+        self.assertAlmostEqual(high, 9.348, delta=0.05)
+
+    def test_fit_noise_raises_the_likelihood_and_writes_a_file_that_loads(self):
+        out = self.path("fitted.yaml")
+        content, _ = self.figures("fit_noise", self.bag, "--predictor", "paper", "--out", out,
+                                  "--measurement-scale", 1.0)
+        before, after = content["before"], content["after"]
+        self.assertGreater(after["log_likelihood_per_sight"], before["log_likelihood_per_sight"])
+        self.assertEqual(len(after["rms_error_m"]), len(HORIZONS_S))
+        self.assertEqual(after["measurement_scale"], 1.0)
+        with open(out, encoding="utf-8") as file:
+            written = yaml.safe_load(file)
+        self.assertEqual(set(written), {"predictor", "acceleration_density", "measurement_scale"})
+        self.figures("fit_noise", self.bag, "--from", out)
+
+    def test_predictor_benchmark_compares_with_filterpy(self):
+        os.makedirs(self.path("stub/filterpy"), exist_ok=True)
+        for name, text in (("__init__.py", ""), ("kalman.py", FILTERPY)):
+            with open(self.path("stub/filterpy/" + name), "w", encoding="utf-8") as file:
+                file.write(text)
+        path = os.pathsep.join([self.path("stub"), os.environ.get("PYTHONPATH", "")])
+        content, _ = self.figures("predictor_benchmark", "--python", "/usr/bin/python3",
+                                  PYTHONPATH=path)
+        rows = {row["what"]: row for row in content["rows"]}
+        self.assertTrue({"filterpy, 6 states", "paper", "periodic"} <= set(rows))
+        for row in rows.values():
+            self.assertAlmostEqual(row["filterpy_over_this"] * row["us"],
+                                   rows["filterpy, 6 states"]["us"], places=6)
+
+    def test_bad_arguments_end_with_code_2_and_what_is_wrong(self):
+        few, text = self.path("few.bag"), self.path("text.csv")
+        write_bag(few, 5)
+        with open(text, "w", encoding="utf-8") as file:
+            file.write("time,x,y,z\n0,0,0,0\n1,a,0,0\n")
+        for name in ("forecast_error", "consistency"):
+            for arguments, word in [
+                    (["--seeds", "0"], "--seeds"), (["--jobs", "0"], "--jobs"),
+                    (["--warm-up", "50"], "--warm-up"), (["--latency", "-1"], "--latency"),
+                    (["--csv", self.path("none.csv")], "none.csv"),
+                    (["--csv", text, "--columns", "time,x,y,z"], "text.csv"),
+                    (["--csv", self.motion, "--columns", "t,x,y,z"], "column t"),
+                    (["--predictors", "magic"], "magic"), (["--motions", "wild"], "wild")]:
+                self.assert_refused(name, arguments, word)
+        for arguments, word in [
+                ([], "--tag"), (["--magic", "1"], "--tag"), ([self.bag, "--tag", "x"], "--tag"),
+                ([self.path("none.bag")], "none.bag"), ([few], "few.bag"),
+                ([self.bag, "--tag", "7"], "tag 7"), ([self.bag, "--predictor", "magic"], "magic"),
+                ([self.bag, "--predictor", "sines"], "sines"),
+                ([self.bag, "--measurement-scale", "0"], "measurement-scale"),
+                ([self.bag, "--from", self.motion], "motion.csv"),
+                ([self.bag, "--out", self.path("no/folder.yaml")], "folder.yaml")]:
+            self.assert_refused("fit_noise", arguments, word)
+        self.assert_refused("predictor_benchmark", ["--python", self.path("none")], "none")
+        self.assert_refused("predictor_benchmark", ["--magic"], "--magic")
+
+
+if __name__ == "__main__":
+    unittest.main()
