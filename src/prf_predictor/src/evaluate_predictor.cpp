@@ -24,8 +24,8 @@ namespace {
 constexpr char kUsage[] =
     "usage: evaluate_predictor PREDICTOR.yaml WARM_UP_S LATENCY_S HORIZONS COLUMNS SEED FILE.csv "
     "[SEED FILE.csv ...]\n  HORIZONS and COLUMNS: separated by commas";
-constexpr double kRate = 30.0;                                     // images per second
-const TrackerParams kTracker{0.9999, 0.005, 0.015, 5, 0.15, 2.0};  // as the node's
+constexpr double kRate = 30.0;                                    // images per second
+const TrackerParams kTracker{0.9999, 0.15, 0.015, 5, 0.15, 2.0};  // as the node's
 
 struct Task {
   PredictorFile predictor;
