@@ -57,7 +57,13 @@ TEST_F(HmmFile, OfTheConfigurationIsValid) {
 }
 
 TEST_F(HmmFile, KeepsEveryDigitWhenWrittenAndRead) {
-  const HmmParameters hmm = skewed_hmm();
+  HmmParameters hmm = skewed_hmm();
+  hmm.initial.setConstant(1.0 / 3);
+  hmm.transition.setConstant(1.0 / 3);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    hmm.mean[i] /= 3;
+    hmm.covariance[i] /= 3;
+  }
   const HmmParameters read = load_hmm(write(hmm_text(hmm, "Two lines\nof comment")));
   EXPECT_EQ(read.initial, hmm.initial);
   EXPECT_EQ(read.transition, hmm.transition);
