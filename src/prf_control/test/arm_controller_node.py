@@ -8,6 +8,8 @@ import unittest
 
 import rospy
 import rostest
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import Transform, Twist
 from prf_msgs.msg import ControlStatus
 from sensor_msgs.msg import JointState
@@ -18,6 +20,8 @@ LEGS = ['fl_hip', 'fl_knee']
 HOME = [0.0, 3.6, 0.0, 1.6, 0.0, 2.0, 0.0]
 TICK = 0.01
 PATIENCE = 10.0  # s, wall clock
+VELOCITY = [math.radians(36)] * 4 + [math.radians(48)] * 3  # limits, rad/s
+FULL = {'velocity_scale': 0.95, 'acceleration': 4.0}  # of the package's configuration
 
 
 def joint_state(stamp, positions, shuffled=False):
@@ -159,6 +163,54 @@ class ArmControllerNode(unittest.TestCase):
         for command, status in self.answers(33)[1:]:
             self.assertEqual(status.code, ControlStatus.STALE_SETPOINT)
             self.assertEqual(list(command.points[0].positions), HOME)
+
+    def tune(self, **numbers):
+        change = rospy.ServiceProxy('arm_controller/set_parameters', Reconfigure)
+        config = Config(doubles=[DoubleParameter(*number) for number in numbers.items()])
+        return {each.name: each.value for each in change(config).config.doubles}
+
+    def move(self, first, last, share, acceleration):
+        """Ticks on the way to a far set-point, the arm following at once: the greatest share of a
+        velocity limit. None may be above `share` from the moment that braking can have brought it
+        there, and no change of velocity above `acceleration`."""
+        fastest = 0.0
+        for tick in range(first, last):
+            before = self.commands[tick - 1].points[0]
+            message = setpoint(self.stamp(tick), position=(-0.3, 0.3, 0.6))
+            command = self.ask(tick, message, before.positions)[0].points[0]
+            for old, new in zip(before.velocities, command.velocities):
+                self.assertLessEqual(abs(new - old), acceleration * TICK + 1e-9)
+            now = max(abs(v) / most for v, most in zip(command.velocities, VELOCITY))
+            fastest = max(fastest, now)
+            if tick > first + 60:
+                self.assertLessEqual(now, share + 1e-9)
+        return fastest
+
+    def test_tuning_is_applied_whole_while_the_arm_moves(self):
+        self.assertEqual(self.tune(), FULL)
+        self.addCleanup(self.tune, **FULL)
+        self.ask(0, hold(self.stamp(0)))
+        self.assertGreater(self.move(1, 60, 0.95, 4.0), 0.9)
+        wanted = {'velocity_scale': 0.3, 'acceleration': 2.0}
+        self.assertEqual(self.tune(**wanted), wanted)
+        self.move(60, 140, 0.3, 2.0)
+        self.assertEqual(rospy.get_param('arm_controller/acceleration'), 2.0)
+
+    def test_tuning_is_refused_whole_with_name_and_bound(self):
+        self.addCleanup(self.tune, **FULL)
+        for numbers, reason in (
+                ({'velocity_scale': 0.3, 'acceleration': -1.0},
+                 'acceleration = -1.000000 rad/s^2, must be > 0'),
+                ({'acceleration': 1.0, 'velocity_scale': 1.5},
+                 'velocity_scale = 1.500000, must be > 0 and <= 1'),
+                ({'velocity_scale': 0.3, 'acceleration': float('nan')}, 'acceleration is nan'),
+                ({'velocity_scale': 0.3, 'damping': 0.2}, 'damping cannot be changed')):
+            with self.assertRaises(rospy.ServiceException) as refusal:
+                self.tune(**numbers)
+            self.assertIn(reason, str(refusal.exception))
+            self.assertEqual(self.tune(), FULL)
+        self.ask(0, hold(self.stamp(0)))
+        self.assertGreater(self.move(1, 60, 0.95, 4.0), 0.9)
 
     def test_interleavings_give_identical_outputs(self):
         def outputs(seed):
