@@ -35,8 +35,8 @@ TEST(CheckedSetpoint, NormalisesAQuaternionThatIsNearlyUnit) {
 TEST(CheckedSetpoint, RefusesQuaternionsThatAreNoRotation) {
   const double nan = std::nan("");
   for (const Eigen::Vector4d& quaternion :
-       {Eigen::Vector4d(0, 0, 0, 0), Eigen::Vector4d(0, 0, 0, 1.1),
-        Eigen::Vector4d(0, 0, nan, 1)}) {
+       {Eigen::Vector4d(0, 0, 0, 0), Eigen::Vector4d(0, 0, 0, 1.011),
+        Eigen::Vector4d(0, 0, 0, 0.989), Eigen::Vector4d(0, 0, nan, 1)}) {
     const Setpoint setpoint = checked_setpoint(kZero, quaternion, kZero, kZero);
     EXPECT_EQ(setpoint.kind, SetpointKind::kInvalid);
     EXPECT_NE(setpoint.refusal.find("quaternion"), std::string::npos);

@@ -35,6 +35,10 @@ class FrameworkGraph(unittest.TestCase):
         self.assertIs(self.master.getParam("/use_sim_time"), False)
         self.assertNotIn("/platform_sim", self.heard)
 
+    def test_planner_and_decision_take_the_same_part_of_the_skill_for_the_approach(self):
+        self.assertEqual(self.master.getParam("/decision/approach_length"),
+                         self.master.getParam("/skill_planner/approach_length"))
+
     def test_no_node_hears_the_ground_truth(self):
         truth = {"/" + topic for topic in recording.GROUND_TRUTH}
         for node in NODES:
