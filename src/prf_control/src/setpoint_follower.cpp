@@ -111,7 +111,7 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
   step.motion = step_toward(state(), goal.motion, dt, limits);
   transfers_ = transfers_ && step.motion.limit != Limit::kNone;
   if (goal.kind == GoalKind::kExact && !transfers_ && step.motion.limit != Limit::kNone) {
-    step.motion.state = hand_step(setpoint, goal.motion, dt);
+    step.motion = hand_step(setpoint, goal.motion, dt);
   }
   const ErrorVector deviation =
       pose_error(jaco_v60_description::forward(step.motion.state.position), setpoint.hand_in_base);
@@ -132,7 +132,7 @@ FollowerStep SetpointFollower::hold(double dt) {
   return step;
 }
 
-MotionState SetpointFollower::hand_step(const PoseSetpoint& setpoint, const MotionState& goal,
+LimitedStep SetpointFollower::hand_step(const PoseSetpoint& setpoint, const MotionState& goal,
                                         double dt) const {
   const JointVector& q = state().position;
   const ErrorVector error = pose_error(jaco_v60_description::forward(q), moved_back(setpoint, dt));
@@ -148,7 +148,18 @@ MotionState SetpointFollower::hand_step(const PoseSetpoint& setpoint, const Moti
                      posture_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
                      params_.orientation_weight},
                     allowed_velocities(state(), dt, limits_));
-  return moved(state(), velocity, dt, limits_);
+  LimitedStep step{moved(state(), velocity, dt, limits_), Limit::kAcceleration, -1, 0.0, 0.0};
+  const JointVector asked = posture_velocity.cwiseAbs().cwiseQuotient(limits_.velocity);
+  for (int i = 0; i < velocity.size(); ++i) {
+    const bool at_limit = std::abs(velocity[i]) >= limits_.velocity[i];
+    if (at_limit && (step.joint < 0 || asked[i] > asked[step.joint])) {
+      step.limit = Limit::kVelocity;
+      step.joint = i;
+      step.asked = posture_velocity[i];
+      step.bound = limits_.velocity[i];
+    }
+  }
+  return step;
 }
 
 SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoint, double dt) {

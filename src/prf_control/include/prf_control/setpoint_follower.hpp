@@ -89,7 +89,7 @@ class SetpointFollower {
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
   jaco_v60_description::IkOptions posture_options(double dt) const;
   void forget_set_points();
-  MotionState hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
+  LimitedStep hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
   JointVector damped_step(const Eigen::Isometry3d& hand_in_base, const JointVector& from,
                           double dt) const;
