@@ -199,18 +199,19 @@ class ArmControllerNode(unittest.TestCase):
     def test_tuning_is_refused_whole_with_name_and_bound(self):
         self.addCleanup(self.tune, **FULL)
         for numbers, reason in (
-                ({'velocity_scale': 0.3, 'acceleration': -1.0},
-                 'acceleration = -1.000000 rad/s^2, must be > 0'),
                 ({'acceleration': 1.0, 'velocity_scale': 1.5},
                  'velocity_scale = 1.500000, must be > 0 and <= 1'),
+                ({'velocity_scale': 0.3, 'acceleration': -1.0},
+                 'acceleration = -1.000000 rad/s^2, must be > 0'),
                 ({'velocity_scale': 0.3, 'acceleration': float('nan')}, 'acceleration is nan'),
                 ({'velocity_scale': 0.3, 'damping': 0.2}, 'damping cannot be changed')):
             with self.assertRaises(rospy.ServiceException) as refusal:
                 self.tune(**numbers)
             self.assertIn(reason, str(refusal.exception))
-            self.assertEqual(self.tune(), FULL)
+        # Before any other change, which would apply the old values again.
         self.ask(0, hold(self.stamp(0)))
         self.assertGreater(self.move(1, 60, 0.95, 4.0), 0.9)
+        self.assertEqual(self.tune(), FULL)
 
     def test_interleavings_give_identical_outputs(self):
         def outputs(seed):
