@@ -81,7 +81,7 @@ class Commands(unittest.TestCase):
 
     def run_command(self, name, *arguments, **environment):
         command = roslib.packages.find_node("prf_predictor", name)[0]
-        return subprocess.run([command, *map(str, arguments)], text=True, check=False, timeout=60,
+        return subprocess.run([command, *map(str, arguments)], text=True, check=False, timeout=200,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               env={**os.environ, **environment})
 
