@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -44,6 +45,16 @@ class MissingNode(unittest.TestCase):
                 os.environ.update(before)
             self.assertEqual(runs.processes_of(folder), [])
 
+    def start_when_connected(self):
+        """A busy machine connects slowly, and what is sent before is lost."""
+        master = rosgraph.Master(connections.CALLER)
+        end = time.monotonic() + 60.0
+        while connections.missing(master, connections.trial_links("platform_sim")):
+            self.assertLess(time.monotonic(), end, "the nodes did not connect")
+            time.sleep(0.2)
+        subprocess.run(["rosservice", "call", "/platform_sim/start"], check=True, timeout=30,
+                       stdout=subprocess.DEVNULL)
+
     def end_of_simulator(self, launch):
         end = time.monotonic() + 60.0
         while not launch.has_ended("platform_sim") and time.monotonic() < end:
@@ -70,7 +81,8 @@ class MissingNode(unittest.TestCase):
             self.assertIn("skill/trajectory", self.end_of_simulator(launch))
 
     def test_silent_predictor_is_named_by_its_topic(self):
-        with self.launched("without:=none") as launch:
+        with self.launched("without:=none", "paused:=true") as launch:
+            self.start_when_connected()
             time.sleep(3.0)
             pid = node_pid("target_predictor")
             os.kill(pid, signal.SIGSTOP)
