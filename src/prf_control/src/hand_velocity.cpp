@@ -7,10 +7,6 @@
 namespace prf_control {
 namespace {
 
-// [m^2/rad^2] Joint motions that move the hand by less than 0.1 m/rad belong to the posture: near a
-// singularity they would be fast and gain nothing.
-constexpr double kPostureWeight = 0.01;
-
 constexpr int kMaxSweeps = 1000;
 constexpr double kConverged = 1e-10;  // [rad/s]
 

@@ -8,8 +8,7 @@
 namespace prf_control {
 namespace {
 
-constexpr double kWeight = 0.2;          // m/rad
-constexpr double kPostureWeight = 0.01;  // as the header says
+constexpr double kWeight = 0.2;  // m/rad
 
 JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
 

@@ -18,6 +18,10 @@ namespace prf_control {
 
 using Twist = Eigen::Matrix<double, 6, 1>;  // linear [m/s], then angular [rad/s]
 
+// [m^2/rad^2] Joint motions that move the hand by less than 0.1 m/rad belong to the posture: near a
+// singularity they would be fast and gain nothing.
+inline constexpr double kPostureWeight = 0.01;
+
 struct HandRequest {
   jaco_v60_description::Jacobian jacobian;  // J, at the joints as they are
   Twist twist;                              // x
