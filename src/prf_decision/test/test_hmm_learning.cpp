@@ -113,6 +113,29 @@ TEST(HmmLearning, FindsTheModelThatTheRunsWereDrawnFromWithoutLabels) {
   }
 }
 
+// Three intents that move at different velocities and hardly vary: a first guess with random means
+// finds them in any order.
+TEST(HmmLearning, OrdersTheStatesBySpeedWhereverItFoundThem) {
+  HmmParameters truth = usual_hmm();
+  truth.transition << 0.9, 0.08, 0.02, 0.05, 0.9, 0.05, 0.02, 0.08, 0.9;
+  truth.mean = {Eigen::Vector3d{0.05, 0, 0}, Eigen::Vector3d{-0.2, 0.1, 0},
+                Eigen::Vector3d{0.3, 0.2, 0.3}};
+  for (Eigen::Matrix3d& covariance : truth.covariance) {
+    covariance = 0.01 * Eigen::Matrix3d::Identity();
+  }
+  LearningOptions options;
+  options.free_means = true;
+  options.restarts = 8;
+  const Learned learned = learn({without_labels(draw(truth, 2000, 4))}, options);
+  for (const std::string& reason : learned.refused) {
+    EXPECT_EQ(reason.find("rms speed"), std::string::npos) << reason;
+  }
+  EXPECT_LT((learned.parameters.transition - truth.transition).cwiseAbs().maxCoeff(), 0.05);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    EXPECT_LT((learned.parameters.mean[i] - truth.mean[i]).norm(), 0.02) << kIntentNames[i];
+  }
+}
+
 TEST(HmmLearning, NeverLowersTheLikelihood) {
   LearningOptions options;
   options.restarts = 3;

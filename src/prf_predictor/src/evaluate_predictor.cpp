@@ -22,12 +22,12 @@ namespace prf_predictor {
 namespace {
 
 constexpr char kUsage[] =
-    "usage: evaluate_predictor PREDICTOR.yaml WARM_UP_S LATENCY_S HORIZONS COLUMNS SEED FILE.csv "
-    "[SEED FILE.csv ...]\n  HORIZONS and COLUMNS: separated by commas";
-constexpr double kRate = 30.0;                                    // images per second
-const TrackerParams kTracker{0.9999, 0.15, 0.015, 5, 0.15, 2.0};  // as the node's
+    "usage: evaluate_predictor NODE.yaml PREDICTOR.yaml WARM_UP_S LATENCY_S HORIZONS COLUMNS "
+    "SEED FILE.csv [SEED FILE.csv ...]\n  HORIZONS and COLUMNS: separated by commas";
+constexpr double kRate = 30.0;  // images per second
 
 struct Task {
+  TrackerParams tracker;
   PredictorFile predictor;
   double warm_up = 0.0;
   double latency = 0.0;
@@ -73,7 +73,8 @@ struct HorizonFigures {
 
 void evaluate(const Task& task, const std::string& path, std::uint32_t seed) {
   const RecordedMotion motion = read_motion(path, task.columns);
-  TargetTracker tracker(kTracker, make_predictor(task.predictor.predictor, task.predictor.values));
+  TargetTracker tracker(task.tracker,
+                        make_predictor(task.predictor.predictor, task.predictor.values));
   std::vector<HorizonFigures> figures(task.horizons.size());
   std::vector<double> nis;
   std::vector<double> orientation_nis;
@@ -128,17 +129,18 @@ void evaluate(const Task& task, const std::string& path, std::uint32_t seed) {
 }
 
 int run(const std::vector<std::string>& words) {
-  if (words.size() < 7 || words.size() % 2 == 0) throw std::invalid_argument(kUsage);
+  if (words.size() < 8 || words.size() % 2 != 0) throw std::invalid_argument(kUsage);
   Task task;
-  task.predictor = read_predictor_file(words[0]);
+  task.tracker = read_tracker_params(words[0]);
+  task.predictor = read_predictor_file(words[1]);
   (void)make_predictor(task.predictor.predictor, task.predictor.values);
-  task.warm_up = std::stod(words[1]);
-  task.latency = std::stod(words[2]);
-  for (const std::string& horizon : split(words[3])) task.horizons.push_back(std::stod(horizon));
-  const auto columns = split(words[4]);
+  task.warm_up = std::stod(words[2]);
+  task.latency = std::stod(words[3]);
+  for (const std::string& horizon : split(words[4])) task.horizons.push_back(std::stod(horizon));
+  const auto columns = split(words[5]);
   if (columns.size() != 4) throw std::invalid_argument("COLUMNS must be four names");
   std::copy(columns.begin(), columns.end(), task.columns.begin());
-  for (std::size_t i = 5; i < words.size(); i += 2) {
+  for (std::size_t i = 6; i < words.size(); i += 2) {
     evaluate(task, words[i + 1], static_cast<std::uint32_t>(std::stoul(words[i])));
   }
   return EXIT_SUCCESS;

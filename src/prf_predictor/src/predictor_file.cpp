@@ -28,6 +28,23 @@ PredictorFile read_predictor_file(const std::string& path) {
   }
 }
 
+TrackerParams read_tracker_params(const std::string& path) {
+  try {
+    const YAML::Node root = YAML::LoadFile(path);
+    TrackerParams params;
+    params.gate_probability = root["gate_probability"].as<double>();
+    params.gate_speed = root["gate_speed"].as<double>();
+    params.orientation_gate_sigma = root["orientation_gate_sigma"].as<double>();
+    params.reacquire_hits = root["reacquire_hits"].as<int>();
+    params.coast_after = root["coast_after"].as<double>();
+    params.lost_after = root["lost_after"].as<double>();
+    validate(params);
+    return params;
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(path + " is no target_predictor.yaml: " + error.what());
+  }
+}
+
 std::string text_of(const PredictorFile& file) {
   YAML::Emitter text;
   text << YAML::BeginMap << YAML::Key << "predictor" << YAML::Value << file.predictor;

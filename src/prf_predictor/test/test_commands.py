@@ -10,6 +10,7 @@ import unittest
 
 import roslib.packages
 import rosbag
+import rospkg
 import rospy
 import yaml
 from geometry_msgs.msg import TransformStamped
@@ -115,6 +116,27 @@ class Commands(unittest.TestCase):
         self.assertTrue(0.03 < rest["rms_error_m"][2] < 0.06, rest)
         self.assertTrue(0.06 < rest["rms_orientation_error_rad"][2] < 0.12, rest)
         self.assertIn("periodic / paper at worst", printed)
+
+    def gated_sights(self, **changed):
+        """Of the motion, with other parameters of the node."""
+        package = rospkg.RosPack().get_path("prf_predictor")
+        with open(os.path.join(package, "config", "target_predictor.yaml"),
+                  encoding="utf-8") as file:
+            parameters = {**yaml.safe_load(file), **changed}
+        with open(self.path("node.yaml"), "w", encoding="utf-8") as file:
+            yaml.safe_dump(parameters, file)
+        predictor = os.path.join(package, "config", "predictors", "ukf.yaml")
+        done = self.run_command("evaluate_predictor", self.path("node.yaml"), predictor, 1, 0,
+                                "0.1", "time,x,y,z", 1, self.motion)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)["gated"]
+
+    def test_evaluate_predictor_takes_the_gate_from_the_nodes_parameters(self):
+        self.assertEqual(self.gated_sights(), 0)
+        # Every second true sight fails a gate of probability 0.51.
+        self.assertGreater(self.gated_sights(gate_probability=0.51, gate_speed=0.0), 20)
+        self.assert_refused("evaluate_predictor", [self.path("nothing.yaml")] + 7 * ["1"],
+                            "nothing.yaml")
 
     def test_consistency_gives_nis_and_nees_with_their_bounds(self):
         content, _ = self.figures("consistency", "--csv", self.motion, "--columns", "time,x,y,z",

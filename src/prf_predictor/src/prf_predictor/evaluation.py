@@ -21,8 +21,12 @@ class EvaluationError(Exception):
     """Something that ends the command with one line."""
 
 
+def config_file(*parts):
+    return os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", *parts)
+
+
 def predictor_file(name):
-    return os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "predictors", name + ".yaml")
+    return config_file("predictors", name + ".yaml")
 
 
 def predictor_names():
@@ -86,8 +90,9 @@ def record(folder, motion, gait, seed, duration):
 
 def follow(predictor, files, options, columns=COLUMNS):
     """One dictionary of figures for each (seed, file): see evaluate_predictor."""
-    words = [executable(PACKAGE, "evaluate_predictor"), predictor_file(predictor),
-             str(options.warm_up), str(options.latency), ",".join(map(str, HORIZONS_S)), columns]
+    words = [executable(PACKAGE, "evaluate_predictor"), config_file("target_predictor.yaml"),
+             predictor_file(predictor), str(options.warm_up), str(options.latency),
+             ",".join(map(str, HORIZONS_S)), columns]
     for seed, file in files:
         words += [str(seed), file]
     return [json.loads(line) for line in run(words).splitlines()]
