@@ -55,16 +55,21 @@ inline Pose to_core(const geometry_msgs::Pose& message) {
   return pose;
 }
 
+// 0 .. 6, from base to hand; none for a finger or a leg.
+inline std::optional<int> arm_joint(const std::string& name) {
+  if (name.size() != kArmJoints.size() + 1 || name.rfind(kArmJoints, 0) != 0) return std::nullopt;
+  const int joint = name.back() - '1';
+  return joint >= 0 && joint <= 6 ? std::optional(joint) : std::nullopt;
+}
+
 // The measured hand; none when a joint of the arm is missing or not finite.
 inline std::optional<Pose> hand_of(const sensor_msgs::JointState& joints) {
   jaco_v60_description::JointVector q;
   int found = 0;
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
-    const std::string& name = joints.name[i];
-    if (name.size() != kArmJoints.size() + 1 || name.rfind(kArmJoints, 0) != 0) continue;
-    const int joint = name.back() - '1';
-    if (joint < 0 || joint > 6) continue;
-    q[joint] = joints.position[i];
+    const auto joint = arm_joint(joints.name[i]);
+    if (!joint) continue;
+    q[*joint] = joints.position[i];
     ++found;
   }
   if (found != 7 || !q.allFinite()) return std::nullopt;

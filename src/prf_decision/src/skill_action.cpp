@@ -39,8 +39,8 @@ void SkillAction::see_joints(const sensor_msgs::JointState& joints) {
   arm_moves_ = false;
   const std::size_t count = std::min(joints.name.size(), joints.velocity.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const bool of_arm = joints.name[i].rfind(kArmJoints, 0) == 0;
-    arm_moves_ = arm_moves_ || (of_arm && !(std::abs(joints.velocity[i]) <= kStill));
+    const bool moves = !(std::abs(joints.velocity[i]) <= kStill);
+    arm_moves_ = arm_moves_ || (moves && arm_joint(joints.name[i]));
   }
 }
 

@@ -35,15 +35,17 @@ def pose(x):
     return message
 
 
-def joint_state(ms):
-    message = JointState()
+def joint_state(ms, speeds):
+    message = JointState(name=list(speeds), velocity=list(speeds.values()))
     message.header.stamp = stamp(ms)
     return message
 
 
-def forecast(ms):
-    """A target that stands 0.4 m ahead of the skill's last pose."""
-    message = TargetForecast(status=TargetForecast.TRACKING, measured=True)
+def forecast(ms, unseen):
+    """A target that stands 0.4 m ahead of the skill's last pose; not seen for so many ms."""
+    status = TargetForecast.COASTING if unseen else TargetForecast.TRACKING
+    message = TargetForecast(status=status, measured=not unseen)
+    message.since_measurement = rospy.Duration(0.001 * unseen)
     message.header.stamp = stamp(ms)
     message.header.frame_id = FRAME
     for horizon in (0.0, 0.5):
@@ -94,6 +96,7 @@ class World:
         rospy.rostime.wallsleep(0.5)  # what is under way of the run before
         self.start, self.ticks = start, 0
         self.planner_alive, self.planner_delay = True, None
+        self.joint_speeds, self.target_hides = {}, float("inf")  # rad/s; ms of the run
         self.progress, self.setpoints, self.last_forecast = [], [], rospy.Time()
 
     def on_progress(self, message):
@@ -131,9 +134,10 @@ class World:
                 images.append((self.start + due, 1, self.start + ms))
         for _, is_image, ms in sorted(ticks + images):
             if is_image:
-                self.forecasts.publish(forecast(ms))
+                unseen = max(0, ms - self.start - self.target_hides)
+                self.forecasts.publish(forecast(ms, unseen))
                 continue
-            self.joint_states.publish(joint_state(ms))
+            self.joint_states.publish(joint_state(ms, self.joint_speeds))
             self.ticks += 1
             # As a robot that waits for its commands; without a planner it is given up after 30.
             ahead = 20 if self.planner_alive else 40

@@ -80,6 +80,8 @@ class SkillAction(unittest.TestCase):
         self.assertAlmostEqual(shares[-1], 1)
         self.assertLess(self.feedback[-1].goal_distance, 1e-6)
         self.assertLess(self.feedback[-1].axis_distance, 1e-6)
+        # Three states, the first two for about 1.0 and 0.5 s: at once, then every 0.1 s.
+        self.assertTrue(15 <= len(self.feedback) <= 19, len(self.feedback))
 
         handle = self.begin()  # back to the start, and again
         self.assertEqual(self.play(0.5).state, ExecutionProgress.REVERSE)
@@ -110,6 +112,34 @@ class SkillAction(unittest.TestCase):
         self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
         self.assertGreaterEqual(min(p.cursor for p in self.world.progress[before:]),
                                 progress.cursor)
+
+    def test_ends_a_preempted_goal_when_the_arm_stands_or_after_a_second(self):
+        arm, finger = "j2s7s300_joint_1", "j2s7s300_joint_finger_1"
+        for joint, speed, waits in ((arm, 0.03, True), (arm, float("nan"), True),
+                                    (arm, -0.01, False), (finger, 0.5, False)):
+            with self.subTest(joint=joint, speed=speed):
+                self.setUp()
+                handle = self.begin()
+                self.play(0.5)
+                handle.cancel()
+                self.wait(lambda: handle.get_goal_status() == GoalStatus.PREEMPTING)
+                self.world.joint_speeds = {joint: speed}
+                self.play(0.9)
+                if waits:
+                    rospy.rostime.wallsleep(0.3)  # an answer too early would be here by now
+                    self.assertEqual(handle.get_goal_status(), GoalStatus.PREEMPTING)
+                    self.play(0.2)
+                self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.PREEMPTED)
+
+    def test_gives_up_when_the_target_is_lost(self):
+        handle = self.begin()
+        self.play(0.5)
+        self.world.target_hides = self.now
+        self.play(6)
+        state, result = self.result(handle)
+        self.assertEqual((state, result.code),
+                         (GoalStatus.ABORTED, ExecuteSkillResult.TARGET_LOST))
+        self.assertIn("unseen", result.text)
 
     def test_takes_changed_parameters_whole_or_refuses_them_with_the_reason(self):
         change = rospy.ServiceProxy("decision/set_parameters", Reconfigure)
