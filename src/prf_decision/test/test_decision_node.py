@@ -35,13 +35,13 @@ def pose(x):
     return message
 
 
-def joint_state(ms, speeds):
-    message = JointState(name=list(speeds), velocity=list(speeds.values()))
+def joint_state(ms, speeds=None):
+    message = JointState(name=list(speeds or ()), velocity=list((speeds or {}).values()))
     message.header.stamp = stamp(ms)
     return message
 
 
-def forecast(ms, unseen):
+def forecast(ms, unseen=0):
     """A target that stands 0.4 m ahead of the skill's last pose; not seen for so many ms."""
     status = TargetForecast.COASTING if unseen else TargetForecast.TRACKING
     message = TargetForecast(status=status, measured=not unseen)
