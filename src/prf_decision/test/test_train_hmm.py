@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands simulate and train_hmm, together, on bags."""
+"""The commands simulate and train_hmm, together, on bags; and what train_hmm reads."""
+import importlib.machinery
 import json
+import math
 import os
 import subprocess
 import sys
@@ -8,15 +10,85 @@ import tempfile
 import unittest
 
 import prf_decision
+import rosbag
+import rospy
 import yaml
+from prf_msgs.msg import ExecutionProgress, TargetForecast, TargetPrediction
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts")
 HMM = os.path.join(SCRIPTS, "..", "config", "hmm_default.yaml")
 
 
+train_hmm = importlib.machinery.SourceFileLoader(
+    "train_hmm", os.path.join(SCRIPTS, "train_hmm")).load_module()
+
+
+def write_bag(path, stamps, statuses, progress):
+    """Forecasts with velocity (k, 0, 0); progress as pairs of forecast and state."""
+    with rosbag.Bag(path, "w") as bag:
+        for k, (stamp, status) in enumerate(zip(stamps, statuses)):
+            message = TargetForecast(status=status, predictions=[TargetPrediction()])
+            message.header.stamp = rospy.Time.from_sec(stamp)
+            message.predictions[0].twist.linear.x = k
+            bag.write("target/forecast", message, rospy.Time.from_sec(1 + k))
+        for n, (forecast, state) in enumerate(progress):
+            message = ExecutionProgress(state=state)
+            message.forecast_stamp = rospy.Time.from_sec(stamps[forecast])
+            bag.write("execution/progress", message, rospy.Time.from_sec(1.5 + n))
+
+
 def run(name, *arguments):
     return subprocess.run([sys.executable, os.path.join(SCRIPTS, name), *map(str, arguments)],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+
+
+class WhatTrainHmmReads(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.bag = os.path.join(holder.name, "run.bag")
+        self.table = os.path.join(holder.name, "run.csv")
+
+    def test_velocities_where_the_target_is_tracked_and_the_state_that_first_used_them(self):
+        states = [ExecutionProgress.FORWARD, ExecutionProgress.PAUSE, ExecutionProgress.REVERSE,
+                  ExecutionProgress.TRACKING, ExecutionProgress.RETRACT, ExecutionProgress.DONE,
+                  ExecutionProgress.WAITING, ExecutionProgress.STOPPED]
+        progress = list(enumerate(states)) + [(0, ExecutionProgress.STOPPED),
+                                              (1, ExecutionProgress.REVERSE)]
+        statuses = [TargetForecast.TRACKING] * 7 + [TargetForecast.COASTING]
+        write_bag(self.bag, range(10, 18), statuses, progress)
+        velocities, labels = train_hmm.read_run(self.bag, "progress")
+        self.assertEqual(velocities[:7].tolist(), [[k, 0, 0] for k in range(7)])
+        self.assertTrue(all(map(math.isnan, velocities[7])))
+        forward, pause, reverse, unknown = 0, 1, 2, -1
+        self.assertEqual(labels, [forward, pause, reverse, forward, reverse, forward, unknown,
+                                  unknown])
+
+    def test_a_row_of_the_table_holds_from_its_time_to_the_next(self):
+        write_bag(self.bag, [10, 11, 12, 13, 14], [TargetForecast.TRACKING] * 5, [])
+        with open(self.table, "w", encoding="utf-8") as file:
+            file.write("time_s,label\n1,pause\n2.5,reverse\n4,none\n")
+        self.assertEqual(train_hmm.read_run(self.bag, "csv")[1], [-1, 1, 1, 2, -1])
+
+    def test_refuses_forecasts_whose_stamps_do_not_rise(self):
+        write_bag(self.bag, [10, 12, 11], [TargetForecast.TRACKING] * 3, [])
+        with self.assertRaisesRegex(ValueError, "stamps of target/forecast do not rise"):
+            train_hmm.read_run(self.bag, "progress")
+
+    def test_confusion_counts_labels_in_rows_and_of_equals_believes_the_more_cautious(self):
+        model = prf_decision.load_hmm(HMM)
+        calm = [[0.0, 0.0, 0.0]] * 20
+        self.assertEqual(train_hmm.confusion(model, [(calm, [1] * 19 + [-1])]).tolist(),
+                         [[0, 0, 0], [19, 0, 0], [0, 0, 0]])
+        with open(HMM, encoding="utf-8") as file:
+            alike = yaml.safe_load(file)
+        alike["initial"] = dict(zip(prf_decision.STATES, [0.25, 0.25, 0.5]))
+        alike["transition"] = {state: [0.375, 0.375, 0.25] for state in prf_decision.STATES}
+        with open(self.table, "w", encoding="utf-8") as file:
+            yaml.safe_dump(alike, file)
+        unseen = [[math.nan] * 3] * 2  # probabilities 1/4, 1/4, 1/2, then 3/8, 3/8, 1/4
+        matrix = train_hmm.confusion(prf_decision.load_hmm(self.table), [(unseen, [0, 0])])
+        self.assertEqual(matrix.tolist(), [[0, 1, 1], [0, 0, 0], [0, 0, 0]])
 
 
 class TrainHmm(unittest.TestCase):
