@@ -58,7 +58,8 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   SimParameters result;
   result.world.motion = values.text("motion");
   result.world.body_motion = values.text("body_motion");
-  result.world.scenario = one_of("scenario", values.text("scenario"), World::scenario_names());
+  result.world.scenario =
+      one_of("scenario", values.text("scenario"), WorldConfig::scenario_names());
   result.world.gait = one_of("gait", values.text("gait"), World::gait_names());
   const int seed = values.integer("seed");
   require_within("seed", seed, 0, 2147483647);

@@ -15,6 +15,7 @@
 #include "pilot.hpp"
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
+#include "require.hpp"
 #include "stance.hpp"
 #include "stiff_controller.hpp"
 
@@ -31,7 +32,6 @@ constexpr double kFootDamping = 3e3;    // N s/m
 constexpr double kArmStiffness = 2e4;
 constexpr double kArmDamping = 2e2;
 
-const std::string kCart = "cart";
 const std::string kHandLink = "j2s7s300_end_effector";
 const std::string kArmLinkPrefix = "j2s7s300_link_";
 
@@ -66,59 +66,7 @@ std::vector<CuboidBody::Part> to_parts(const std::vector<Cuboid>& cuboids) {
   return parts;
 }
 
-TargetBox target_of(const WorldConfig& config) {
-  TargetBox target = config.target;
-  target.on_cart = config.scenario == kCart;
-  return target;
-}
-
-void require_finite(const std::string& name, double value) {
-  if (!std::isfinite(value)) throw std::invalid_argument(name + " is not finite");
-}
-
-void require_between(const std::string& name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be from " +
-                              std::to_string(low) + " to " + std::to_string(high));
-}
-
-void require_body_motion(const std::string& path) {
-  try {
-    const BodyMotion readable(path);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("body_motion is '" + path + "': " + error.what());
-  }
-}
-
 }  // namespace
-
-void WorldConfig::validate() const {
-  const std::vector<std::string>& scenarios = World::scenario_names();
-  if (std::find(scenarios.begin(), scenarios.end(), scenario) == scenarios.end()) {
-    throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill or cart");
-  }
-  if (scenario == kCart && motion != "none") {
-    throw std::invalid_argument(
-        "motion is '" + motion +
-        "', must be none in the scenario cart, where nothing moves the floor");
-  }
-  const PlatformMotion deck_motion(motion);
-  if (!body_motion.empty()) require_body_motion(body_motion);
-  require_gait(gait);
-  if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {
-    throw std::invalid_argument("gait is '" + gait + "', must be stand when the base is carried");
-  }
-  require_between("friction", friction, 0.05, 2.0);
-  require_between("base_start_x", base_start_x, -0.4, 0.2);
-  require_between("base_start_y", base_start_y, -0.3, 0.3);
-  require_between("base_start_yaw", base_start_yaw, -0.5, 0.5);
-  require_between("servo_gain", servo_gain, 0.1, 200.0);
-  require_between("arm_latency", arm_latency, 0.0, 0.2);
-  for (int i = 0; i < arm_start.size(); ++i) {
-    require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
-  }
-  target_of(*this).validate();
-}
 
 class World::Impl {
  public:
@@ -178,12 +126,12 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
     : motion_(config.motion, config.seed),
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
-      target_(target_of(config)),
+      target_(config.placed_target()),
       deck_(scene_, "platform", to_parts({deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
       box_(scene_, "box", to_parts(target_.walls()), {kTarget, ~kSurroundings},
            motion_.deck(0.0).pose),
-      support_(scene_, target_.on_cart ? kCart : "post", to_parts(target_.support()),
+      support_(scene_, target_.on_cart ? "cart" : "post", to_parts(target_.support()),
                {kTarget, ~kSurroundings}, motion_.deck(0.0).pose),
       robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
              [&](const std::string& body) {
@@ -369,10 +317,6 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 const std::vector<std::string>& World::gait_names() { return platform_sim::gait_names(); }
-const std::vector<std::string>& World::scenario_names() {
-  static const std::vector<std::string> names{"treadmill", kCart};
-  return names;
-}
 
 void World::step() { impl_->step(); }
 double World::time() const { return impl_->time(); }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "follower_limits.hpp"
 #include "prf_control/nearest_pose.hpp"
 
 namespace prf_control {
@@ -18,24 +19,6 @@ using jaco_v60_description::forward;
 using jaco_v60_description::jaco_joint_limits;
 
 using Twist = Eigen::Matrix<double, 6, 1>;
-
-constexpr double kDt = 0.01;
-
-FollowerParams params() { return {0.95, 4.0, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0}; }
-
-JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
-
-// Every command: finite, within position, velocity and acceleration limits.
-void expect_within_limits(const MotionState& before, const MotionState& after, double dt) {
-  const auto& joints = jaco_joint_limits();
-  ASSERT_TRUE(after.position.allFinite());
-  ASSERT_TRUE(after.velocity.allFinite());
-  ASSERT_GE((after.position - joints.lower).minCoeff(), 0.0);
-  ASSERT_GE((joints.upper - after.position).minCoeff(), 0.0);
-  ASSERT_LE((after.velocity.cwiseAbs() - 0.95 * joints.velocity).maxCoeff(), 1e-11);
-  ASSERT_LE((after.velocity - before.velocity).cwiseAbs().maxCoeff(), 4.0 * dt + 1e-10);
-  ASSERT_LE((after.position - before.position - dt * after.velocity).cwiseAbs().maxCoeff(), 1e-11);
-}
 
 Eigen::Isometry3d random_pose(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> place(-size, size);
@@ -257,80 +240,6 @@ TEST(SetpointFollower, DriftsToABetterPostureWhileTheHandStands) {
     }
     EXPECT_GT(follower.state().position[joint], M_PI + 0.27) << "joint " << joint + 1;
   }
-}
-
-TEST(SetpointFollower, RefusesAChangeOfBranchAndCreepsInstead) {
-  FollowerParams strict = params();
-  strict.max_joint_step = 0.02;
-  SetpointFollower follower(strict);
-  follower.start(home());
-  PoseSetpoint setpoint;
-  setpoint.hand_in_base = forward(home());
-  setpoint.hand_in_base.translation().y() += 0.08;  // near, but more than 0.02 rad away
-  FollowerStep step = follower.follow(setpoint, kDt);
-  EXPECT_EQ(step.goal, GoalKind::kJumpRefused);
-  EXPECT_GT(step.jump, 0.02);
-  ASSERT_GE(step.jump_joint, 0);
-  for (int i = 0; i < 300; ++i) step = follower.follow(setpoint, kDt);
-  EXPECT_EQ(step.goal, GoalKind::kExact);
-  EXPECT_LE(step.position_deviation, 1e-6);
-}
-
-// Poses just beyond a joint limit of the arm as it stands, which another branch gives.
-std::vector<std::pair<JointVector, Eigen::Isometry3d>> poses_of_other_branches() {
-  const auto& joints = jaco_joint_limits();
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
-  std::vector<std::pair<JointVector, Eigen::Isometry3d>> found;
-  for (int trial = 0; trial < 4000 && found.size() < 4; ++trial) {
-    JointVector q = JointVector::NullaryExpr([&] { return angle(random); });
-    for (int i : {1, 3, 5}) q[i] = M_PI + 0.4 * q[i];
-    q[5] = joints.upper[5];
-    const JointVector beyond = q + 0.08 * JointVector::Unit(5);
-    const auto solution = jaco_v60_description::inverse(forward(beyond), q);
-    const bool solved = solution.status == jaco_v60_description::IkStatus::kSolved;
-    if (solved && (solution.q - q).cwiseAbs().maxCoeff() > 1.0) {
-      found.push_back({q, forward(beyond)});
-    }
-  }
-  return found;
-}
-
-TEST(SetpointFollower, ChangesBranchSlowlyWhenItStaysRefused) {
-  int changed = 0;
-  const auto cases = poses_of_other_branches();
-  ASSERT_EQ(cases.size(), 4u);
-  for (const auto& [start, pose] : cases) {
-    SetpointFollower follower(params());
-    follower.start(start);
-    MotionState before = follower.state();
-    FollowerStep step;
-    double refused = 0;
-    bool changes = false;
-    int over = 0;  // ticks since the change
-    for (int tick = 0; tick < 3000 && over < 50; ++tick) {
-      PoseSetpoint setpoint;  // it moves all the time
-      setpoint.hand_in_base = pose;
-      setpoint.hand_in_base.translation().x() += 1e-3 * std::sin(0.05 * tick);
-      step = follower.follow(setpoint, kDt);
-      ASSERT_NO_FATAL_FAILURE(expect_within_limits(before, step.motion.state, kDt));
-      before = step.motion.state;
-      over = changes && step.goal != GoalKind::kChangesBranch ? over + 1 : 0;
-      if (step.goal == GoalKind::kJumpRefused) refused += kDt;
-      if (step.goal == GoalKind::kChangesBranch) {
-        changes = true;
-        const JointVector allowed = 0.95 * kBranchChangeSpeed * jaco_joint_limits().velocity;
-        const double excess = (before.velocity.cwiseAbs() - allowed).maxCoeff();
-        ASSERT_LE(excess, tick < 150 ? 1.0 : 1e-9) << "the creep has ended by then";
-      }
-    }
-    if (!changes) continue;  // the creep got there
-    ++changed;
-    EXPECT_GE(refused, 0.9);
-    EXPECT_TRUE(step.goal == GoalKind::kExact || step.goal == GoalKind::kNearest);
-    EXPECT_LE(step.position_deviation, 2e-3);
-  }
-  EXPECT_GE(changed, 2);
 }
 
 TEST(SetpointFollower, GoesToTheNearestPoseOfOneOutOfReach) {

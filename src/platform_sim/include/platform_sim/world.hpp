@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,37 +9,9 @@
 #include "platform_sim/contacts.hpp"
 #include "platform_sim/frame_state.hpp"
 #include "platform_sim/target_box.hpp"
+#include "platform_sim/world_config.hpp"
 
 namespace platform_sim {
-
-using ArmVector = Eigen::Matrix<double, 7, 1>;
-
-enum class ArmMode {
-  kServo,      ///< velocity-limited position servos, see command_arm()
-  kCompliant,  ///< gravity compensated and back-drivable, to be guided by the hand
-};
-
-struct WorldConfig {
-  /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
-  /// pushes aside (CartPush), and motion must be none.
-  std::string scenario = "treadmill";
-  std::string motion = "none";   ///< preset or file, see find_profile()
-  std::string body_motion;       ///< CSV file: carries base_link over the deck; empty: legs do
-  std::string gait = "stand";    ///< one of gait_names()
-  std::uint64_t seed = 0;        ///< phase of the platform's motion
-  double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
-  double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
-  double base_start_y = 0.0;     ///< m
-  double base_start_yaw = 0.0;   ///< rad
-  ArmMode arm_mode = ArmMode::kServo;
-  ArmVector arm_start = ArmVector::Zero();  ///< rad
-  double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
-  double arm_latency = 0.02;                ///< s, from a command to the arm's servos
-  TargetBox target;
-
-  /// Throws std::invalid_argument with name, value and bound.
-  void validate() const;
-};
 
 /// Joints in the order of World::joint_names(): 12 of the legs, 7 of the arm.
 struct JointStates {
@@ -64,7 +35,6 @@ class World {
   World& operator=(World&&) noexcept;
 
   [[nodiscard]] static const std::vector<std::string>& gait_names();
-  [[nodiscard]] static const std::vector<std::string>& scenario_names();
 
   /// Advances by kTimeStep.
   void step();

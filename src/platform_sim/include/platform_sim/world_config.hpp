@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "platform_sim/target_box.hpp"
+
+namespace platform_sim {
+
+using ArmVector = Eigen::Matrix<double, 7, 1>;
+
+enum class ArmMode {
+  kServo,      ///< velocity-limited position servos, see command_arm()
+  kCompliant,  ///< gravity compensated and back-drivable, to be guided by the hand
+};
+
+struct WorldConfig {
+  /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
+  /// pushes aside (CartPush), and motion must be none.
+  std::string scenario = "treadmill";
+  std::string motion = "none";   ///< preset or file, see find_profile()
+  std::string body_motion;       ///< CSV file: carries base_link over the deck; empty: legs do
+  std::string gait = "stand";    ///< one of gait_names()
+  std::uint64_t seed = 0;        ///< phase of the platform's motion
+  double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
+  double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
+  double base_start_y = 0.0;     ///< m
+  double base_start_yaw = 0.0;   ///< rad
+  ArmMode arm_mode = ArmMode::kServo;
+  ArmVector arm_start = ArmVector::Zero();  ///< rad
+  double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
+  double arm_latency = 0.02;                ///< s, from a command to the arm's servos
+  TargetBox target;
+
+  [[nodiscard]] static const std::vector<std::string>& scenario_names();
+  /// The target as the scenario places it.
+  [[nodiscard]] TargetBox placed_target() const;
+  /// Throws std::invalid_argument with name, value and bound.
+  void validate() const;
+};
+
+}  // namespace platform_sim

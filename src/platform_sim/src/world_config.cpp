@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "platform_sim/world_config.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "body_motion.hpp"
+#include "gaits.hpp"
+#include "platform_sim/platform_motion.hpp"
+#include "require.hpp"
+
+namespace platform_sim {
+namespace {
+
+const std::string kCart = "cart";
+
+void require_body_motion(const std::string& path) {
+  try {
+    const BodyMotion readable(path);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body_motion is '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& WorldConfig::scenario_names() {
+  static const std::vector<std::string> names{"treadmill", kCart};
+  return names;
+}
+
+TargetBox WorldConfig::placed_target() const {
+  TargetBox placed = target;
+  placed.on_cart = scenario == kCart;
+  return placed;
+}
+
+void WorldConfig::validate() const {
+  const std::vector<std::string>& scenarios = scenario_names();
+  if (std::find(scenarios.begin(), scenarios.end(), scenario) == scenarios.end()) {
+    throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill or cart");
+  }
+  if (scenario == kCart && motion != "none") {
+    throw std::invalid_argument(
+        "motion is '" + motion +
+        "', must be none in the scenario cart, where nothing moves the floor");
+  }
+  const PlatformMotion deck_motion(motion);
+  if (!body_motion.empty()) require_body_motion(body_motion);
+  require_gait(gait);
+  if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {
+    throw std::invalid_argument("gait is '" + gait + "', must be stand when the base is carried");
+  }
+  require_between("friction", friction, 0.05, 2.0);
+  require_between("base_start_x", base_start_x, -0.4, 0.2);
+  require_between("base_start_y", base_start_y, -0.3, 0.3);
+  require_between("base_start_yaw", base_start_yaw, -0.5, 0.5);
+  require_between("servo_gain", servo_gain, 0.1, 200.0);
+  require_between("arm_latency", arm_latency, 0.0, 0.2);
+  for (int i = 0; i < arm_start.size(); ++i) {
+    require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
+  }
+  placed_target().validate();
+}
+
+}  // namespace platform_sim
