@@ -3,71 +3,19 @@
 """The decision node against scripted joint_states, forecasts and plans."""
 
 import io
+import os
 import random
-import threading
+import sys
 import unittest
 
+import rospkg
 import rospy
 import rostest
-from geometry_msgs.msg import Pose
-from prf_msgs.msg import ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
-from sensor_msgs.msg import JointState
-from trajectory_msgs.msg import MultiDOFJointTrajectory
+from prf_msgs.msg import ExecutionProgress
 
-FRAME = "j2s7s300_link_base"
-PIPELINE_DELAY = 60  # ms
-NODES = 11
-MISSING = "missing.csv"  # a demonstration that the planner refuses
-
-
-def stamp(ms):
-    return rospy.Time(ms // 1000, ms % 1000 * 1000000)
-
-
-def milliseconds(time):
-    return time.secs * 1000 + time.nsecs // 1000000
-
-
-def pose(x):
-    message = Pose()
-    message.position.x, message.position.z = x, 0.5
-    message.orientation.w = 1
-    return message
-
-
-def joint_state(ms, speeds=None):
-    message = JointState(name=list(speeds or ()), velocity=list((speeds or {}).values()))
-    message.header.stamp = stamp(ms)
-    return message
-
-
-def forecast(ms, unseen=0):
-    """A target that stands 0.4 m ahead of the skill's last pose; not seen for so many ms."""
-    status = TargetForecast.COASTING if unseen else TargetForecast.TRACKING
-    message = TargetForecast(status=status, measured=not unseen)
-    message.since_measurement = rospy.Duration(0.001 * unseen)
-    message.header.stamp = stamp(ms)
-    message.header.frame_id = FRAME
-    for horizon in (0.0, 0.5):
-        prediction = TargetPrediction(horizon=rospy.Duration(horizon), pose=pose(1.0))
-        message.predictions.append(prediction)
-    return message
-
-
-def trajectory(progress):
-    """0.3 m in 1 s, the last pose 0.4 m before the target."""
-    message = SkillTrajectory(status=SkillTrajectory.SOLVED, planner="test")
-    message.header = progress.header
-    message.forecast_stamp = progress.forecast_stamp
-    message.handover = progress.handover
-    if progress.demonstration == MISSING:
-        message.status, message.message = SkillTrajectory.REFUSED, f"{MISSING}: cannot be read"
-        return message
-    message.poses = [pose(0.3 + 0.03 * i) for i in range(NODES)]
-    message.time_from_start = [rospy.Duration(0.1 * i) for i in range(NODES)]
-    message.goal_in_target = pose(-0.4)
-    message.goal_in_target.position.z = 0
-    return message
+sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
+from scripted_world import (FRAME, NODES, PIPELINE_DELAY, World, forecast,  # noqa: E402
+                            joint_state, milliseconds)
 
 
 def serialized(message):
@@ -75,74 +23,6 @@ def serialized(message):
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
-
-
-class World:
-    """Plays a run to the node and collects what it answers."""
-
-    def __init__(self):
-        self.joint_states = rospy.Publisher("joint_states", JointState, queue_size=1000)
-        self.forecasts = rospy.Publisher("target/forecast", TargetForecast, queue_size=1000)
-        self.trajectories = rospy.Publisher("skill/trajectory", SkillTrajectory, queue_size=1000)
-        self.changed = threading.Condition()
-        self.begin(0)
-        rospy.Subscriber("execution/progress", ExecutionProgress, self.on_progress)
-        rospy.Subscriber("execution/setpoint", MultiDOFJointTrajectory, self.on_setpoint)
-        publishers = (self.joint_states, self.forecasts, self.trajectories)
-        while any(p.get_num_connections() == 0 for p in publishers):
-            rospy.sleep(0.05)
-
-    def begin(self, start):
-        rospy.rostime.wallsleep(0.5)  # what is under way of the run before
-        self.start, self.ticks = start, 0
-        self.planner_alive, self.planner_delay = True, None
-        self.joint_speeds, self.target_hides = {}, float("inf")  # rad/s; ms of the run
-        self.progress, self.setpoints, self.last_forecast = [], [], rospy.Time()
-
-    def on_progress(self, message):
-        with self.changed:
-            new = message.forecast_stamp != self.last_forecast
-            self.last_forecast = message.forecast_stamp
-            self.progress.append(message)
-            self.changed.notify_all()
-        if new and self.planner_alive:
-            if self.planner_delay:
-                rospy.rostime.wallsleep(self.planner_delay())
-            self.trajectories.publish(trajectory(message))
-
-    def on_setpoint(self, message):
-        with self.changed:
-            self.setpoints.append(message)
-            self.changed.notify_all()
-
-    def wait_for(self, ticks, seconds=30):
-        def complete():
-            return len(self.progress) >= ticks and len(self.setpoints) >= ticks
-
-        with self.changed:
-            return self.changed.wait_for(complete, seconds)
-
-    def play(self, first, last, skew=lambda: 0):
-        """Ticks in [first, last) ms of the run; an image arrives 40 ms after its exposure, and
-        `skew` ms more. Returns when every tick is answered."""
-        ticks = [(ms, 0, ms) for ms in range(self.start + first, self.start + last, 10)]
-        images = []
-        due = 0
-        for ms in (k * 100 // 3 for k in range(last * 3 // 100 + 1)):
-            if first <= ms + 40 < last:
-                due = max(due, ms + 40 + skew())  # in the order of the images whatever the skew
-                images.append((self.start + due, 1, self.start + ms))
-        for _, is_image, ms in sorted(ticks + images):
-            if is_image:
-                unseen = max(0, ms - self.start - self.target_hides)
-                self.forecasts.publish(forecast(ms, unseen))
-                continue
-            self.joint_states.publish(joint_state(ms, self.joint_speeds))
-            self.ticks += 1
-            # As a robot that waits for its commands; without a planner it is given up after 30.
-            ahead = 20 if self.planner_alive else 40
-            self.wait_for(self.ticks - ahead)
-        return self.wait_for(self.ticks - (0 if self.planner_alive else 40))
 
 
 class DecisionNode(unittest.TestCase):

@@ -8,21 +8,18 @@ import signal
 import subprocess
 import sys
 import tempfile
-import unittest
 
-import actionlib
 import rospkg
 import rospy
 import rostest
 import yaml
 from actionlib_msgs.msg import GoalStatus
-from prf_msgs.msg import (ExecuteSkillAction, ExecuteSkillGoal, ExecuteSkillResult,
-                          ExecutionProgress, SkillTrajectory)
+from prf_msgs.msg import (ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress,
+                          SkillTrajectory)
 
 sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
-import test_decision_node  # noqa: E402
+from scripted_world import PATIENCE, GoalTest, World  # noqa: E402
 
-PATIENCE = 30  # s of real time, for whatever takes no time
 FIRST, SECOND = 0.0, 0.1  # m, where the skills end beside the target's axis
 # m per tick: the skills run at 0.32 m/s, on the approach across the target, a gap closes at 0.2 m/s
 STEP = 0.01 * (0.32 * 1.2 + 0.2)
@@ -36,7 +33,7 @@ def demonstration(end):
             f"# target_pose: 1 0 0.5 0 0 0 1\ntime,x,y,z,qx,qy,qz,qw\n{rows}")
 
 
-class World(test_decision_node.World):
+class PlannedWorld(World):
     """With a planner of its own instead of the scripted one."""
 
     def __init__(self, folder):
@@ -75,7 +72,7 @@ class World(test_decision_node.World):
         raise RuntimeError("the planner did not come or go")
 
 
-class Demonstrations(unittest.TestCase):
+class Demonstrations(GoalTest):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -83,41 +80,18 @@ class Demonstrations(unittest.TestCase):
                            ("second.csv", demonstration(SECOND))):
             with open(os.path.join(cls.folder.name, name), "w", encoding="utf-8") as file:
                 file.write(text)
-        cls.world = World(cls.folder.name)
-        cls.client = actionlib.ActionClient("execute_skill", ExecuteSkillAction)
-        assert cls.client.wait_for_server(rospy.Duration(PATIENCE))
+        cls.world = PlannedWorld(cls.folder.name)
+        cls.connect()
 
     @classmethod
     def tearDownClass(cls):
         cls.world.kill_planner()
         cls.folder.cleanup()
 
-    def setUp(self):
-        self.world.begin(1000000)
-        self.now = 0
-        self.play(0.1)  # a goal before the first tick would belong to the run before
-
-    def play(self, seconds):
-        until = self.now + int(1000 * seconds)
-        self.assertTrue(self.world.play(self.now, until), len(self.world.progress))
-        self.now = until
-        return self.world.progress[-1]
-
     def send(self, **goal):
         handle = self.client.send_goal(ExecuteSkillGoal(hold_time=rospy.Duration(0.2), **goal))
-        self.wait(lambda: handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK)
+        self.wait_until_seen(handle)
         return handle
-
-    def wait(self, condition):
-        for _ in range(100 * PATIENCE):
-            if condition():
-                return
-            rospy.rostime.wallsleep(0.01)
-        self.fail("timed out")
-
-    def result(self, handle):
-        self.wait(lambda: handle.get_comm_state() == actionlib.CommState.DONE)
-        return handle.get_terminal_state(), handle.get_result()
 
     def hand(self, setpoint):
         place = setpoint.points[0].transforms[0].translation

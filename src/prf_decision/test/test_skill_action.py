@@ -7,43 +7,24 @@ import signal
 import subprocess
 import sys
 import threading
-import unittest
 
-import actionlib
 import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
-from prf_msgs.msg import (ExecuteSkillAction, ExecuteSkillGoal, ExecuteSkillResult,
-                          ExecutionProgress)
+from prf_msgs.msg import ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress
 
 sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
-import test_decision_node  # noqa: E402
-
-PATIENCE = 30  # s of real time, for whatever takes no time
+from scripted_world import MISSING, PATIENCE, GoalTest, World  # noqa: E402
 
 
-class SkillAction(unittest.TestCase):
+class SkillAction(GoalTest):
     @classmethod
     def setUpClass(cls):
-        cls.world = test_decision_node.World()
-        cls.client = actionlib.ActionClient("execute_skill", ExecuteSkillAction)
-        assert cls.client.wait_for_server(rospy.Duration(PATIENCE))
-        cls.epoch = 3000000  # ms; each run begins before the one before it
-
-    def setUp(self):
-        type(self).epoch -= 100000
-        self.world.begin(self.epoch)
-        self.now = 0
-        self.play(0.1)  # a goal before the first tick would belong to the run before
-
-    def play(self, seconds):
-        until = self.now + int(1000 * seconds)
-        self.assertTrue(self.world.play(self.now, until), len(self.world.progress))
-        self.now = until
-        return self.world.progress[-1]
+        cls.world = World()
+        cls.connect()
 
     def begin(self, **goal):
         """A goal that the server has seen, with what it says about it."""
@@ -51,20 +32,9 @@ class SkillAction(unittest.TestCase):
         handle = self.client.send_goal(ExecuteSkillGoal(**goal), lambda _: changed.set(),
                                        lambda _, feedback: self.feedback.append(feedback))
         self.feedback = []
-        self.wait(lambda: handle.get_goal_status() != GoalStatus.PENDING
-                  and handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK)
+        self.wait_until_seen(handle)
+        self.wait(lambda: handle.get_goal_status() != GoalStatus.PENDING)
         return handle
-
-    def wait(self, condition):
-        for _ in range(100 * PATIENCE):
-            if condition():
-                return
-            rospy.rostime.wallsleep(0.01)
-        self.fail("timed out")
-
-    def result(self, handle):
-        self.wait(lambda: handle.get_comm_state() == actionlib.CommState.DONE)
-        return handle.get_terminal_state(), handle.get_result()
 
     def test_executes_once_for_each_goal_and_tells_how_it_goes(self):
         progress = self.play(0.5)
@@ -118,7 +88,7 @@ class SkillAction(unittest.TestCase):
         for joint, speed, waits in ((arm, 0.03, True), (arm, float("nan"), True),
                                     (arm, -0.01, False), (finger, 0.5, False)):
             with self.subTest(joint=joint, speed=speed):
-                self.setUp()
+                self.begin_run()
                 handle = self.begin()
                 self.play(0.5)
                 handle.cancel()
@@ -177,10 +147,7 @@ class SkillAction(unittest.TestCase):
         self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
         self.assertIn("an execution is under way", result.text)
         self.play(0.5)
-        type(self).epoch -= 100000  # another run begins: the goal of this one is over
-        self.world.begin(self.epoch)
-        self.now = 0
-        self.play(0.1)
+        self.begin_run()  # the goal of the run before is over
         self.assertEqual(self.result(first)[1].code, ExecuteSkillResult.RUN_ENDED)
         state, result = self.result(self.begin(time_limit=rospy.Duration(-1)))
         self.assertIn("time_limit is -1.000000, must be >= 0", result.text)
@@ -190,7 +157,7 @@ class SkillAction(unittest.TestCase):
     def ask(self, **goal):
         """A goal that the server has seen but the planner has not answered yet."""
         handle = self.client.send_goal(ExecuteSkillGoal(**goal))
-        self.wait(lambda: handle.get_comm_state() != actionlib.CommState.WAITING_FOR_GOAL_ACK)
+        self.wait_until_seen(handle)
         self.assertEqual(handle.get_goal_status(), GoalStatus.PENDING)
         return handle
 
@@ -202,7 +169,7 @@ class SkillAction(unittest.TestCase):
         self.play(3)
         self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
 
-        handle = self.ask(demonstration=test_decision_node.MISSING)
+        handle = self.ask(demonstration=MISSING)
         self.play(0.1)
         state, result = self.result(handle)
         self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
@@ -220,10 +187,7 @@ class SkillAction(unittest.TestCase):
         self.assertEqual((state, result.code),
                          (GoalStatus.RECALLED, ExecuteSkillResult.PREEMPTED))
         handle = self.ask(demonstration="side.csv")
-        type(self).epoch -= 100000
-        self.world.begin(self.epoch)
-        self.now = 0
-        self.play(0.1)
+        self.begin_run()
         state, result = self.result(handle)
         self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.RUN_ENDED))
 
@@ -262,7 +226,7 @@ class SkillAction(unittest.TestCase):
             self.assertIn("PREEMPTED", out)
 
     def test_command_exits_with_2_when_refused(self):
-        with self.command("--demonstration", test_decision_node.MISSING) as refused:
+        with self.command("--demonstration", MISSING) as refused:
             for _ in range(600):
                 self.play(0.05)
                 if refused.poll() is not None:
