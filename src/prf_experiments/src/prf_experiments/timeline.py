@@ -115,14 +115,14 @@ def _milestones(data, figures):
             yield Event(data.start + int(round(1e9 * figures[key])), "verdict", text)
 
 
-def _limited(events):
+def _limited(data, events):
     """At most MOST_OF_A_KIND of the events; the last one says how many were left out."""
     events = sorted(events, key=lambda event: event.stamp)
     if len(events) > MOST_OF_A_KIND:
         more = events[MOST_OF_A_KIND:]
         events = events[:MOST_OF_A_KIND] + [
             Event(more[0].stamp, more[0].kind, f"… and {len(more)} more events of this kind, the "
-                  f"last at {1e-9 * more[-1].stamp:.2f} s: {more[-1].text}")]
+                  f"last at {data.seconds(more[-1].stamp):.2f} s: {more[-1].text}")]
     return events
 
 
@@ -131,7 +131,7 @@ def events(data, figures):
     told = []
     for kind in (_phases(data), _sights(data), _forecasts(data), _plans(data), _control(data),
                  _contacts(data), _complaints(data), _milestones(data, figures)):
-        told += _limited(kind)
+        told += _limited(data, kind)
     return sorted(told, key=lambda event: event.stamp)
 
 

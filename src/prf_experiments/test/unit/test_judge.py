@@ -48,6 +48,20 @@ class Reached(unittest.TestCase):
         data.camera.values[275] = synthetic.camera_pose(0.2, judge.STAND_OFF)
         self.assertEqual(judge.judge(data).verdict, "F")
 
+    def test_what_was_not_reached_is_told_by_the_best_instant(self):
+        along = np.full(1001, 0.5)
+        along[300] = 0.15
+        verdict = judge.judge(synthetic.make_recording(lateral=0.12, along=along))
+        self.assertIn("at best 120 mm beside the axis and -150 mm along it", verdict.reason)
+
+    def test_the_distance_is_averaged_over_execution_and_over_tracking(self):
+        lateral = np.linspace(0.03, 0.01, 1001) ** 2
+        figures = judge.judge(synthetic.make_recording(lateral=lateral)).figures
+        forward, tracking = 1e3 * lateral[:500], 1e3 * lateral[500:1000]  # the last tick is DONE
+        for phase, wanted in (("execution", forward), ("tracking", tracking)):
+            self.assertAlmostEqual(figures[phase + "_lateral_mean_mm"], np.mean(wanted), 6)
+            self.assertAlmostEqual(figures[phase + "_lateral_deviation_mm"], np.std(wanted), 6)
+
     def test_bounds_across_and_along_the_axis(self):
         for lateral, along, verdict in (
                 (0.1 - MICROMETRE, 0.3, "S"), (0.1 + MICROMETRE, 0.3, "F"),

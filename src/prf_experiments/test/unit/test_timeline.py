@@ -80,7 +80,7 @@ class Timeline(unittest.TestCase):
         logged = [what for _, what in told(data) if "trouble" in what]
         self.assertEqual(len(logged), timeline.MOST_OF_A_KIND + 1)
         self.assertIn(f"{len(data.complaints) - timeline.MOST_OF_A_KIND} more events", logged[-1])
-        self.assertIn("trouble 100", logged[-1])
+        self.assertIn("the last at 10.00 s: log of decision: trouble 100", logged[-1])
 
     def test_text_has_phases_solve_times_and_losses(self):
         data = synthetic.make_recording(4.0, lateral=0.010)
