@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "node_params.hpp"
 
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include <stdexcept>
 
 namespace elte_planner {
 
 NodeParams load_node_params(const ros::NodeHandle& private_handle) {
-  prf_parameters::PrivateParameters values(private_handle);
+  prf_ros::PrivateParameters values(private_handle);
   NodeParams params;
   params.demonstration = values.text("demonstration");
   params.frame = values.text("frame");

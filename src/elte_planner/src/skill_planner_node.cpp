@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include <chrono>
 
@@ -154,7 +154,7 @@ class SkillPlannerNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "skill_planner");
-  return prf_parameters::run([] {
+  return prf_ros::run([] {
     elte_planner::SkillPlannerNode node(elte_planner::load_node_params(ros::NodeHandle("~")));
     ros::spin();
   });

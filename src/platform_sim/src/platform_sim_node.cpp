@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   using platform_sim::Simulation;
   ros::NodeHandle node;
   Simulation::Outcome outcome = Simulation::Outcome::kEnded;
-  const int refused = prf_parameters::run([&] {
+  const int refused = prf_ros::run([&] {
     ros::NodeHandle private_node("~");
     std::string urdf;
     if (!node.getParam("robot_description", urdf)) {
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                                   " is missing, must hold the URDF of the robot");
     }
     const platform_sim::SimParameters params =
-        platform_sim::read_parameters(prf_parameters::PrivateParameters(private_node));
+        platform_sim::read_parameters(prf_ros::PrivateParameters(private_node));
     outcome = Simulation(node, private_node, params, urdf).run();
   });
   if (refused != 0) return refused;

@@ -33,7 +33,7 @@ std::string one_of(const std::string& name, const std::string& value,
   refuse(name, value, bound);
 }
 
-HandCameraConfig read_camera(prf_parameters::PrivateParameters& values) {
+HandCameraConfig read_camera(prf_ros::PrivateParameters& values) {
   HandCameraConfig camera;
   const std::vector<double> distortion = values.numbers("distortion", 5);
   std::copy(distortion.begin(), distortion.end(), camera.optics.distortion.begin());
@@ -54,7 +54,7 @@ HandCameraConfig read_camera(prf_parameters::PrivateParameters& values) {
 
 }  // namespace
 
-SimParameters read_parameters(prf_parameters::PrivateParameters values) {
+SimParameters read_parameters(prf_ros::PrivateParameters values) {
   SimParameters result;
   result.world.motion = values.text("motion");
   result.world.body_motion = values.text("body_motion");
@@ -88,7 +88,7 @@ SimParameters read_parameters(prf_parameters::PrivateParameters values) {
   require_within("time_limit", result.time_limit, 0.01, 86400.0);
   result.end_delay = values.number("end_delay");
   require_within("end_delay", result.end_delay, 0.0, 60.0);
-  prf_parameters::PrivateParameters camera = values.section("camera");
+  prf_ros::PrivateParameters camera = values.section("camera");
   result.camera = read_camera(camera);
   result.camera.seed = result.world.seed;
   result.camera.noise *= variation.camera_noise_factor;

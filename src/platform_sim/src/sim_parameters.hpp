@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include "platform_sim/hand_camera.hpp"
 #include "platform_sim/world.hpp"
@@ -22,6 +22,6 @@ struct SimParameters {
 };
 
 // Throws std::invalid_argument with name, value and bound.
-[[nodiscard]] SimParameters read_parameters(prf_parameters::PrivateParameters values);
+[[nodiscard]] SimParameters read_parameters(prf_ros::PrivateParameters values);
 
 }  // namespace platform_sim

@@ -4,7 +4,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
-#include <prf_parameters/live_parameters.hpp>
+#include <prf_ros/reconfigurable.hpp>
 
 #include "conversions.hpp"
 
@@ -23,7 +23,7 @@ class ArmControllerNode {
                 "share of the URDF's joint velocity limits"},
                {"acceleration", params.controller.follower.acceleration,
                 "limit of every joint, rad/s^2"}},
-              [this](const prf_parameters::LiveParameters::Values& values) {
+              [this](const prf_ros::ReconfigurableParams::Values& values) {
                 controller_.tune(values.at("velocity_scale"), values.at("acceleration"));
               }) {
     diagnostics_.setHardwareID("none");
@@ -105,7 +105,7 @@ class ArmControllerNode {
 
   NodeParams params_;
   ArmController controller_;
-  prf_parameters::LiveParameters live_;
+  prf_ros::ReconfigurableParams live_;
   ros::Publisher command_, status_;
   ros::Subscriber joints_, setpoint_;
   diagnostic_updater::Updater diagnostics_;
@@ -120,7 +120,7 @@ class ArmControllerNode {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "arm_controller");
   ros::NodeHandle node;
-  return prf_parameters::run([&node] {
+  return prf_ros::run([&node] {
     prf_control::ArmControllerNode controller(node, prf_control::read_params(ros::NodeHandle("~")));
     ros::spin();
   });

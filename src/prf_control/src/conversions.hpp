@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct NodeParams {
 };
 
 inline NodeParams read_params(const ros::NodeHandle& private_handle) {
-  prf_parameters::PrivateParameters values(private_handle);
+  prf_ros::PrivateParameters values(private_handle);
   NodeParams params{};
   FollowerParams& follower = params.controller.follower;
   follower.velocity_scale = values.number("velocity_scale");

@@ -4,7 +4,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include <map>
-#include <prf_parameters/live_parameters.hpp>
+#include <prf_ros/reconfigurable.hpp>
 
 #include "conversions.hpp"
 #include "parameters.hpp"
@@ -24,7 +24,7 @@ class DecisionNode {
         decision_(parameters.decision),
         action_(node_, decision_),
         live_(ros::NodeHandle("~"), live_numbers(parameters.decision),
-              [this](const LiveParameters::Values& values) { tune(values); }) {
+              [this](const ReconfigurableParams::Values& values) { tune(values); }) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     subscribers_ = {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
@@ -41,9 +41,9 @@ class DecisionNode {
   }
 
  private:
-  using LiveParameters = prf_parameters::LiveParameters;
+  using ReconfigurableParams = prf_ros::ReconfigurableParams;
 
-  void tune(const LiveParameters::Values& values) {
+  void tune(const ReconfigurableParams::Values& values) {
     const DecisionParameters tuned = with_live_numbers(parameters_.decision, values);
     decision_.tune(tuned);
     parameters_.decision = tuned;
@@ -133,7 +133,7 @@ class DecisionNode {
   TickGate gate_;
   Decision decision_;
   SkillAction action_;
-  LiveParameters live_;
+  ReconfigurableParams live_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
   ros::Publisher progress_publisher_;
@@ -147,9 +147,9 @@ class DecisionNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "decision");
-  return prf_parameters::run([] {
+  return prf_ros::run([] {
     prf_decision::DecisionNode node(
-        prf_decision::load_parameters(prf_parameters::PrivateParameters(ros::NodeHandle("~"))));
+        prf_decision::load_parameters(prf_ros::PrivateParameters(ros::NodeHandle("~"))));
     ros::spin();
   });
 }

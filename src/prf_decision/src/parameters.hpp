@@ -2,8 +2,8 @@
 // Private: the node's parameters from its private namespace.
 #pragma once
 
-#include <prf_parameters/live_parameters.hpp>
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
+#include <prf_ros/reconfigurable.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ inline Duration checked_seconds(const std::string& name, double value) {
 }
 
 // An exception names the parameter or the HMM file, its value and the bound.
-inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) {
+inline NodeParameters load_parameters(prf_ros::PrivateParameters values) {
   const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
   NodeParameters parameters;
   GateParameters& gate = parameters.gate;
@@ -69,7 +69,7 @@ inline NodeParameters load_parameters(prf_parameters::PrivateParameters values) 
 }
 
 // What a person may tune while the node runs.
-inline std::vector<prf_parameters::LiveParameters::Number> live_numbers(
+inline std::vector<prf_ros::ReconfigurableParams::Number> live_numbers(
     const DecisionParameters& decision) {
   return {{"dwell_time", to_seconds(decision.dwell_time), "s, least time in a state for the HMM"},
           {"hold_time", to_seconds(decision.hold_time), "s, to follow until done; next execution"},
@@ -80,7 +80,7 @@ inline std::vector<prf_parameters::LiveParameters::Number> live_numbers(
 }
 
 inline DecisionParameters with_live_numbers(const DecisionParameters& decision,
-                                            const prf_parameters::LiveParameters::Values& values) {
+                                            const prf_ros::ReconfigurableParams::Values& values) {
   DecisionParameters tuned = decision;
   tuned.dwell_time = checked_seconds("dwell_time", values.at("dwell_time"));
   tuned.hold_time = checked_seconds("hold_time", values.at("hold_time"));

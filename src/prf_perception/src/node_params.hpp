@@ -2,7 +2,7 @@
 // Parameters of tag_detector_node, documented in config/tag_detector.yaml.
 #pragma once
 
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include <set>
 #include <stdexcept>
@@ -19,7 +19,7 @@ struct NodeParams {
 };
 
 inline NodeParams load(const ros::NodeHandle& private_node) {
-  prf_parameters::PrivateParameters parameters(private_node);
+  prf_ros::PrivateParameters parameters(private_node);
   NodeParams params;
   params.detector.family = parameters.text("tag_family");
   params.detector.tag_size = parameters.number("tag_size");

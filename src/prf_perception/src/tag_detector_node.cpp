@@ -132,7 +132,7 @@ class TagDetectorNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tag_detector");
-  return prf_parameters::run([] {
+  return prf_ros::run([] {
     prf_perception::TagDetectorNode node(ros::NodeHandle(),
                                          prf_perception::load(ros::NodeHandle("~")));
     ros::spin();

@@ -2,7 +2,7 @@
 // Parameters of target_predictor_node, documented in config/target_predictor.yaml.
 #pragma once
 
-#include <prf_parameters/private_parameters.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include <map>
 #include <memory>
@@ -45,8 +45,7 @@ inline void validate(const NodeParams& params) {
 }
 
 // The predictor by its name, with the parameters that it has.
-inline std::unique_ptr<TargetPredictor> load_predictor(
-    prf_parameters::PrivateParameters& parameters) {
+inline std::unique_ptr<TargetPredictor> load_predictor(prf_ros::PrivateParameters& parameters) {
   const std::string name = parameters.text("predictor");
   std::map<std::string, double> values;
   for (const std::string& key : predictor_parameters(name)) values[key] = parameters.number(key);
@@ -54,7 +53,7 @@ inline std::unique_ptr<TargetPredictor> load_predictor(
 }
 
 inline NodeParams load(const ros::NodeHandle& private_node) {
-  prf_parameters::PrivateParameters parameters(private_node);
+  prf_ros::PrivateParameters parameters(private_node);
   NodeParams params;
   params.planning_frame = parameters.text("planning_frame");
   params.tag_id = parameters.integer("tag_id");

@@ -173,7 +173,7 @@ class TargetPredictorNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "target_predictor");
-  return prf_parameters::run([] {
+  return prf_ros::run([] {
     prf_predictor::TargetPredictorNode node(ros::NodeHandle(),
                                             prf_predictor::load(ros::NodeHandle("~")));
     ros::spin();

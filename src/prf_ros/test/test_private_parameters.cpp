@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_parameters/private_parameters.hpp"
+#include "prf_ros/private_parameters.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-namespace prf_parameters {
+namespace prf_ros {
 namespace {
 
 using testing::ElementsAre;
@@ -96,4 +96,4 @@ TEST(Run, TurnsARefusalIntoExitCodeTwo) {
 }
 
 }  // namespace
-}  // namespace prf_parameters
+}  // namespace prf_ros

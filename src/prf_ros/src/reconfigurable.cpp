@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_parameters/live_parameters.hpp"
+#include "prf_ros/reconfigurable.hpp"
 
 #include <dynamic_reconfigure/ConfigDescription.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace prf_parameters {
+namespace prf_ros {
 namespace {
 
 constexpr const char* kGroup = "Default";
@@ -23,8 +23,8 @@ void refuse_all(const Items& items) {
 
 }  // namespace
 
-LiveParameters::LiveParameters(const ros::NodeHandle& private_handle,
-                               const std::vector<Number>& numbers, const Apply& apply)
+ReconfigurableParams::ReconfigurableParams(const ros::NodeHandle& private_handle,
+                                           const std::vector<Number>& numbers, const Apply& apply)
     : handle_(private_handle), apply_(apply) {
   for (const Number& number : numbers) values_[number.name] = number.value;
   describe(numbers);
@@ -36,7 +36,7 @@ LiveParameters::LiveParameters(const ros::NodeHandle& private_handle,
 }
 
 // An exception out of here reaches the caller as the text of the service's error.
-bool LiveParameters::change(const Request& request, Response& response) {
+bool ReconfigurableParams::change(const Request& request, Response& response) {
   try {
     const Values wanted = changed(request.config);
     apply_(wanted);
@@ -54,7 +54,8 @@ bool LiveParameters::change(const Request& request, Response& response) {
   return true;
 }
 
-LiveParameters::Values LiveParameters::changed(const dynamic_reconfigure::Config& config) const {
+ReconfigurableParams::Values ReconfigurableParams::changed(
+    const dynamic_reconfigure::Config& config) const {
   refuse_all(config.bools);
   refuse_all(config.ints);
   refuse_all(config.strs);
@@ -71,7 +72,7 @@ LiveParameters::Values LiveParameters::changed(const dynamic_reconfigure::Config
   return wanted;
 }
 
-dynamic_reconfigure::Config LiveParameters::config() const {
+dynamic_reconfigure::Config ReconfigurableParams::config() const {
   dynamic_reconfigure::Config config;
   for (const auto& [name, value] : values_) {
     config.doubles.emplace_back();
@@ -84,7 +85,7 @@ dynamic_reconfigure::Config LiveParameters::config() const {
   return config;
 }
 
-void LiveParameters::describe(const std::vector<Number>& numbers) {
+void ReconfigurableParams::describe(const std::vector<Number>& numbers) {
   dynamic_reconfigure::ConfigDescription description;
   description.groups.resize(1);
   description.groups[0].name = kGroup;
@@ -103,4 +104,4 @@ void LiveParameters::describe(const std::vector<Number>& numbers) {
   descriptions_.publish(description);
 }
 
-}  // namespace prf_parameters
+}  // namespace prf_ros

@@ -4,8 +4,10 @@
 // with the reason. Nothing is clipped. Beside them the node's parameters stay as they were at its
 // start.
 //
-//   LiveParameters live(ros::NodeHandle("~"), {{"gain", 1.0, "what it does, unit"}},
-//                       [&](const LiveParameters::Values& values) { core.tune(values.at("gain"));
+//   ReconfigurableParams reconfigurable(ros::NodeHandle("~"), {{"gain", 1.0, "what it does,
+//   unit"}},
+//                       [&](const ReconfigurableParams::Values& values) {
+//                       core.tune(values.at("gain"));
 //                       });
 #pragma once
 
@@ -18,9 +20,9 @@
 #include <string>
 #include <vector>
 
-namespace prf_parameters {
+namespace prf_ros {
 
-class LiveParameters {
+class ReconfigurableParams {
  public:
   struct Number {
     std::string name;
@@ -31,8 +33,8 @@ class LiveParameters {
   using Apply = std::function<void(const Values&)>;
 
   // `apply` throws std::invalid_argument to refuse; then nothing may have changed.
-  LiveParameters(const ros::NodeHandle& private_handle, const std::vector<Number>& numbers,
-                 const Apply& apply);
+  ReconfigurableParams(const ros::NodeHandle& private_handle, const std::vector<Number>& numbers,
+                       const Apply& apply);
 
  private:
   using Request = dynamic_reconfigure::Reconfigure::Request;
@@ -51,4 +53,4 @@ class LiveParameters {
   ros::ServiceServer service_;
 };
 
-}  // namespace prf_parameters
+}  // namespace prf_ros

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_parameters/private_parameters.hpp"
+#include "prf_ros/private_parameters.hpp"
 
 #include <ros/console.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace prf_parameters {
+namespace prf_ros {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -142,4 +142,4 @@ int run(const std::function<void()>& node_main) {
   }
 }
 
-}  // namespace prf_parameters
+}  // namespace prf_ros

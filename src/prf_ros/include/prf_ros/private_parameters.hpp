@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace prf_parameters {
+namespace prf_ros {
 
 class PrivateParameters {
  public:
@@ -53,4 +53,4 @@ class PrivateParameters {
 // exit code 2, as for a command that is called wrongly.
 [[nodiscard]] int run(const std::function<void()>& node_main);
 
-}  // namespace prf_parameters
+}  // namespace prf_ros

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_core/forecast.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "prf_core/require.hpp"
+
+namespace prf_core {
+namespace {
+
+void validate_prediction(const std::string& name, const TargetPrediction& prediction) {
+  require_pose(name + ".pose", prediction.target.pose);
+  const auto& [pose, linear, angular] = prediction.target;
+  require(linear.allFinite(), name + ".linear_velocity", linear.transpose(), "finite");
+  require(angular.allFinite(), name + ".angular_velocity", angular.transpose(), "finite");
+  require(prediction.covariance.allFinite(), name + ".covariance", "not finite", "finite");
+}
+
+}  // namespace
+
+void TargetForecast::validate() const {
+  require(since_measurement >= Duration{0}, "since_measurement", to_seconds(since_measurement),
+          ">= 0 s");
+  const bool has_target = status == TargetStatus::kTracking || status == TargetStatus::kCoasting;
+  require(!has_target || !predictions.empty(), "predictions", "[]",
+          "at least one while the target is tracked or coasted");
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    const std::string name = "predictions[" + std::to_string(i) + "]";
+    const Duration horizon = predictions[i].horizon;
+    const bool rises = i == 0 ? horizon == Duration{0} : horizon > predictions[i - 1].horizon;
+    require(rises, name + ".horizon", to_seconds(horizon),
+            i == 0 ? "0 s" : "greater than the one before");
+    validate_prediction(name, predictions[i]);
+  }
+}
+
+TargetPrediction predicted_target(const TargetForecast& forecast, Stamp stamp) {
+  const auto& predictions = forecast.predictions;
+  require(!predictions.empty(), "predictions", "[]", "at least one");
+  const Duration horizon = stamp - forecast.stamp;
+  const auto next =
+      std::upper_bound(predictions.begin(), predictions.end(), horizon,
+                       [](Duration value, const auto& entry) { return value < entry.horizon; });
+  if (next == predictions.begin() || next == predictions.end()) {
+    TargetPrediction nearest = next == predictions.end() ? predictions.back() : predictions[0];
+    if (nearest.horizon != horizon) nearest.target = {nearest.target.pose, {0, 0, 0}, {0, 0, 0}};
+    nearest.horizon = horizon;
+    return nearest;
+  }
+  const TargetPrediction& start = *std::prev(next);
+  const double span = to_seconds(next->horizon - start.horizon);
+  const double time = to_seconds(horizon - start.horizon);
+  const double s = time / span;
+  return {horizon, interpolate(start.target, next->target, span, time),
+          (1.0 - s) * start.covariance + s * next->covariance};
+}
+
+}  // namespace prf_core
