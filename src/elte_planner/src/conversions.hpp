@@ -69,7 +69,7 @@ inline Progress progress_from(const prf_msgs::ExecutionProgress& message) {
           nanoseconds(message.forecast_stamp),
           static_cast<Eigen::Index>(message.frozen),
           message.time_to_go.toSec(),
-          {message.demonstration, message.handover}};
+          {message.demonstration, message.demonstration_switch}};
 }
 
 inline std::uint8_t message_status(AnswerStatus status) {
@@ -92,7 +92,7 @@ inline prf_msgs::SkillTrajectory answer_to(const Progress& progress, const Follo
   message.header.frame_id = skill.session().demonstration().frame();
   message.forecast_stamp = ros_time(progress.forecast_stamp);
   message.demonstration = skill.demonstration();
-  message.handover = progress.wanted.handover;
+  message.demonstration_switch = progress.wanted.demonstration_switch;
   message.planner = skill.session().planner_name();
   message.goal_in_target = message_from(skill.session().goal_in_target());
   return message;

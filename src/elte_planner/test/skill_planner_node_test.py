@@ -32,9 +32,9 @@ def forecast(stamp, y=0.0, status=TargetForecast.TRACKING, frame=FRAME):
     return message
 
 
-def progress(stamp, forecast_stamp, frozen=2, demonstration="", handover=0):
+def progress(stamp, forecast_stamp, frozen=2, demonstration="", demonstration_switch=0):
     message = ExecutionProgress(frozen=frozen, time_to_go=rospy.Duration.from_sec(1.0),
-                                demonstration=demonstration, handover=handover)
+                                demonstration=demonstration, demonstration_switch=demonstration_switch)
     message.header.stamp = rospy.Time.from_sec(stamp)
     message.header.frame_id = FRAME
     message.forecast_stamp = rospy.Time.from_sec(forecast_stamp)
@@ -121,7 +121,7 @@ class SkillPlannerNode(unittest.TestCase):
                 *(message for i, wanted in enumerate(
                     [("", 0), (other.name, 1), ("missing.csv", 2), (other.name, 1), ("", 0)])
                   for message in (forecast(11.0 + i), progress(11.06 + i, 11.0 + i, 2, *wanted))))
-        self.assertEqual([answer.handover for answer in (before, moved, missing, kept, back)],
+        self.assertEqual([answer.demonstration_switch for answer in (before, moved, missing, kept, back)],
                          [0, 1, 2, 1, 0])
         self.assertEqual([answer.demonstration for answer in (before, moved, missing, kept, back)],
                          [first, other.name, other.name, other.name, first])

@@ -138,7 +138,7 @@ inline prf_msgs::ExecutionProgress to_message(const Progress& progress) {
   message.frozen = static_cast<std::uint32_t>(progress.frozen);
   message.time_to_go = to_ros_duration(progress.time_to_go);
   message.demonstration = progress.demonstration.name;
-  message.handover = progress.demonstration.number;
+  message.demonstration_switch = progress.demonstration.number;
   return message;
 }
 static_assert(static_cast<int>(State::kWaiting) == prf_msgs::ExecutionProgress::WAITING);

@@ -94,7 +94,7 @@ bool Decision::can_begin() const {
 void Decision::begin(const Order& order) {
   order.validate();
   if (!can_begin()) throw std::invalid_argument("an execution is under way");
-  if (!order.demonstration.empty()) handover_.ask(order.demonstration);
+  if (!order.demonstration.empty()) demonstration_switch_.ask(order.demonstration);
   order_ = order;
   preempted_ = false;
 }
@@ -116,7 +116,7 @@ void Decision::begin_execution(Stamp stamp) {
   cause_ = Event::kCalm;
   reason_.clear();
   tracked_since_.reset();
-  rewinding_ = (!execution_->resume && cursor_ > 0) || handover_.is_taking_over();
+  rewinding_ = (!execution_->resume && cursor_ > 0) || demonstration_switch_.is_taking_over();
 }
 
 Outcome Decision::update(const Tick& tick) {
@@ -124,7 +124,7 @@ Outcome Decision::update(const Tick& tick) {
   refusal_.clear();
   take_in(tick);
   stop_asking(tick.stamp);
-  if (order_ && !handover_.is_asking()) begin_execution(tick.stamp);
+  if (order_ && !demonstration_switch_.is_asking()) begin_execution(tick.stamp);
   take_over_when_at_the_start();
   const Assessment assessment = assess(tick);
   change_state(tick, assessment);
@@ -150,7 +150,7 @@ void Decision::take_in(const Tick& tick) {
 }
 
 void Decision::take_answer(const PlanAnswer& answer) {
-  switch (handover_.take(answer.handover, answer.refused)) {
+  switch (demonstration_switch_.take(answer.demonstration_switch, answer.refused)) {
     case Reply::kOfAnother:
       return;
     case Reply::kRefused:
@@ -169,7 +169,7 @@ void Decision::take_answer(const PlanAnswer& answer) {
     return;
   }
   const Planned planned{answer.plan, answer.stamp, forecast_};
-  if (handover_.is_taking_over()) {
+  if (demonstration_switch_.is_taking_over()) {
     next_ = planned;
   } else {
     adopt(planned);
@@ -187,27 +187,27 @@ void Decision::adopt(const Planned& planned) {
 }
 
 void Decision::take_over_when_at_the_start() {
-  if (!handover_.is_taking_over() || !execution_ || cursor_ > 0 || !next_.plan) return;
-  handover_.come_into_force();
+  if (!demonstration_switch_.is_taking_over() || !execution_ || cursor_ > 0 || !next_.plan) return;
+  demonstration_switch_.come_into_force();
   approach_ = Approach();
   adopt(std::exchange(next_, {}));
 }
 
 // The planner does not answer, or whoever asked does not want it any more.
 void Decision::stop_asking(Stamp stamp) {
-  if (!handover_.is_asking()) return;
-  if (handover_.is_overdue(stamp)) {
-    refusal_ =
-        sentence("the planner did not answer within ", to_seconds(Handover::kPatience), " s");
+  if (!demonstration_switch_.is_asking()) return;
+  if (demonstration_switch_.is_overdue(stamp)) {
+    refusal_ = sentence("the planner did not answer within ",
+                        to_seconds(DemonstrationSwitch::kPatience), " s");
   }
   if (preempted_) refusal_ = "preempted";
   if (refusal_.empty()) return;
-  handover_.withdraw();
+  demonstration_switch_.withdraw();
   order_.reset();
 }
 
 const std::shared_ptr<const Trajectory>& Decision::newest_plan() const {
-  return handover_.is_taking_over() ? next_.plan : plan_;
+  return demonstration_switch_.is_taking_over() ? next_.plan : plan_;
 }
 
 std::optional<Objection> Decision::object_to_target(const Tick& tick) const {
@@ -347,7 +347,7 @@ std::optional<MovingPose> Decision::move(const Tick& tick, bool objected) {
     setpoint =
         setpoint_ ? limited_setpoint(*setpoint_, *wanted, parameters_.catch_up, dt) : *wanted;
     setpoint_ = setpoint->pose;
-    const bool at_start = cursor_ == 0 && !handover_.is_taking_over() &&
+    const bool at_start = cursor_ == 0 && !demonstration_switch_.is_taking_over() &&
                           are_near(*setpoint_, wanted->pose, parameters_.tracking_tolerance);
     rewinding_ = rewinding_ && !at_start;
   } else if (!holds && setpoint_) {
@@ -374,10 +374,10 @@ Progress Decision::report(Stamp stamp) const {
   progress.posterior = parameters_.framework ? belief_.posterior : Eigen::Vector3d::UnitX();
   progress.cause = cause_;
   progress.cursor = cursor_;
-  progress.demonstration = handover_.wanted();
+  progress.demonstration = demonstration_switch_.wanted();
   progress.refusal = refusal_;
   if (plan_) progress.share = cursor_ / static_cast<double>(plan_->poses.size() - 1);
-  if (handover_.is_asking() || handover_.is_taking_over()) {
+  if (demonstration_switch_.is_asking() || demonstration_switch_.is_taking_over()) {
     if (next_.plan) progress.time_to_go = next_.plan->times.back();
   } else if (plan_) {
     progress.frozen = frozen_nodes(*plan_, cursor_);

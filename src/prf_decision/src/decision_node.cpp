@@ -69,7 +69,8 @@ class DecisionNode {
 
   void on_trajectory(const prf_msgs::SkillTrajectory& message) {
     const bool refused = message.status == prf_msgs::SkillTrajectory::REFUSED;
-    PlanAnswer answer{to_core(message.header.stamp), nullptr, "", message.handover, refused};
+    PlanAnswer answer{to_core(message.header.stamp), nullptr, "", message.demonstration_switch,
+                      refused};
     if (refused || message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
       answer.message = message.message;
       count("skill/trajectory without a plan");

@@ -58,7 +58,7 @@ def trajectory(progress):
     message = SkillTrajectory(status=SkillTrajectory.SOLVED, planner="test")
     message.header = progress.header
     message.forecast_stamp = progress.forecast_stamp
-    message.handover = progress.handover
+    message.demonstration_switch = progress.demonstration_switch
     if progress.demonstration == MISSING:
         message.status, message.message = SkillTrajectory.REFUSED, f"{MISSING}: cannot be read"
         return message

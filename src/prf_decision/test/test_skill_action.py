@@ -164,7 +164,7 @@ class SkillAction(GoalTest):
     def test_asks_the_planner_for_the_demonstration_that_a_goal_names(self):
         handle = self.ask(demonstration="side.csv", hold_time=rospy.Duration(0.5))
         progress = self.play(0.1)
-        self.assertEqual((progress.demonstration, progress.handover), ("side.csv", 1))
+        self.assertEqual((progress.demonstration, progress.demonstration_switch), ("side.csv", 1))
         self.wait(lambda: handle.get_goal_status() == GoalStatus.ACTIVE)
         self.play(3)
         self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.DONE)
@@ -175,7 +175,7 @@ class SkillAction(GoalTest):
         self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
         self.assertEqual(result.text, "missing.csv: cannot be read")
         progress = self.play(0.1)
-        self.assertEqual((progress.demonstration, progress.handover), ("side.csv", 1))
+        self.assertEqual((progress.demonstration, progress.demonstration_switch), ("side.csv", 1))
         self.assertEqual(progress.state, ExecutionProgress.DONE)
 
     def test_recalls_a_goal_that_the_planner_has_not_answered_and_ends_it_with_the_run(self):

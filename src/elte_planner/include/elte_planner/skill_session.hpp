@@ -36,10 +36,11 @@ struct Forecast {
 // Which demonstration an execution is to follow, see FollowedSkill.
 struct WantedSkill {
   std::string demonstration;  // a path, absolute or beside the first one; empty: the first one
-  std::uint32_t handover = 0;
+  std::uint32_t demonstration_switch = 0;
 
   bool operator==(const WantedSkill& other) const {
-    return demonstration == other.demonstration && handover == other.handover;
+    return demonstration == other.demonstration &&
+           demonstration_switch == other.demonstration_switch;
   }
 };
 

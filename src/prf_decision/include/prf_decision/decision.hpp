@@ -12,8 +12,8 @@
 
 #include "prf_decision/approach.hpp"
 #include "prf_decision/decision_fsm.hpp"
+#include "prf_decision/demonstration_switch.hpp"
 #include "prf_decision/guards.hpp"
-#include "prf_decision/handover.hpp"
 #include "prf_decision/hmm.hpp"
 #include "prf_decision/motion.hpp"
 #include "prf_decision/setpoint_limiter.hpp"
@@ -83,7 +83,7 @@ class Decision {
   // Progress::refusal.
   [[nodiscard]] bool can_begin() const;
   void begin(const Order& order);
-  [[nodiscard]] bool is_asking() const { return handover_.is_asking(); }
+  [[nodiscard]] bool is_asking() const { return demonstration_switch_.is_asking(); }
 
   // Other parameters from the next tick on; framework, autostart and the HMM stay as they are.
   void tune(const DecisionParameters& parameters);
@@ -139,7 +139,7 @@ class Decision {
   Stamp entered_{0};  // when the state was entered
   std::shared_ptr<const Forecast> forecast_;
   std::shared_ptr<const Trajectory> plan_;
-  Handover handover_;
+  DemonstrationSwitch demonstration_switch_;
   Planned next_;         // of the demonstration taken up, until it comes into force
   std::string refusal_;  // of this tick
   Approach approach_;    // of plan_

@@ -35,8 +35,8 @@ struct PlanAnswer {
   Stamp stamp{0};  // of the progress answered
   std::shared_ptr<const Trajectory> plan;
   std::string message;
-  std::uint32_t handover = 0;  // number of the demonstration that was wanted
-  bool refused = false;        // that one cannot be followed
+  std::uint32_t demonstration_switch = 0;  // number of the demonstration that was wanted
+  bool refused = false;                    // that one cannot be followed
 };
 
 // A predictor's message: null forecast when it was refused on arrival.

@@ -25,7 +25,7 @@ struct NamedDemonstration {
 
 enum class Reply { kOfAnother, kRefused, kTakenUp, kPlan };
 
-class Handover {
+class DemonstrationSwitch {
  public:
   static constexpr Duration kPatience = std::chrono::seconds(5);  // data time, for the answer
 

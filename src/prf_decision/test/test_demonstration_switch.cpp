@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Orders that name another demonstration.
-#include "prf_decision/handover.hpp"
+#include "prf_decision/demonstration_switch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +21,13 @@ std::shared_ptr<const Trajectory> side_skill() {
 
 Order order_of(const std::string& demonstration) { return {{}, {}, false, demonstration}; }
 
-struct Handovers : testing::Test {
-  Handovers() { world.others["side"] = side_skill(); }
+struct DemonstrationSwitchs : testing::Test {
+  DemonstrationSwitchs() { world.others["side"] = side_skill(); }
 
   World world;
 };
 
-TEST_F(Handovers, GoBackAlongTheSkillBeforeThenToTheStartOfTheNewOneThenForward) {
+TEST_F(DemonstrationSwitchs, GoBackAlongTheSkillBeforeThenToTheStartOfTheNewOneThenForward) {
   world.until(State::kDone, 4);
   world.decision().begin(order_of("side"));
   EXPECT_FALSE(world.decision().can_begin());
@@ -55,7 +55,7 @@ TEST_F(Handovers, GoBackAlongTheSkillBeforeThenToTheStartOfTheNewOneThenForward)
   EXPECT_LT((done.setpoint->pose.position - Eigen::Vector3d(0.6, 0.1, 0.5)).norm(), 1e-6);
 }
 
-TEST_F(Handovers, BeginAtOnceWhereNothingWasExecuted) {
+TEST_F(DemonstrationSwitchs, BeginAtOnceWhereNothingWasExecuted) {
   DecisionParameters parameters = usual_parameters();
   parameters.autostart = false;
   World idle(parameters);
@@ -73,7 +73,7 @@ TEST_F(Handovers, BeginAtOnceWhereNothingWasExecuted) {
   }
 }
 
-TEST_F(Handovers, LeaveWhatWasBeforeWhenRefused) {
+TEST_F(DemonstrationSwitchs, LeaveWhatWasBeforeWhenRefused) {
   world.until(State::kDone, 4);
   world.decision().begin(order_of("missing"));
   Progress progress = world.tick().progress;
@@ -91,7 +91,7 @@ TEST_F(Handovers, LeaveWhatWasBeforeWhenRefused) {
   EXPECT_LT(world.until(State::kDone, 4).setpoint->pose.position.y(), 1e-6);
 }
 
-TEST_F(Handovers, AreRefusedWhenThePlannerDoesNotAnswerInTime) {
+TEST_F(DemonstrationSwitchs, AreRefusedWhenThePlannerDoesNotAnswerInTime) {
   world.until(State::kDone, 4);
   world.answers = false;
   world.decision().begin(order_of("side"));
@@ -103,7 +103,7 @@ TEST_F(Handovers, AreRefusedWhenThePlannerDoesNotAnswerInTime) {
   EXPECT_EQ(progress.demonstration.name, "");
 }
 
-TEST_F(Handovers, AreWithdrawnWhenPreempted) {
+TEST_F(DemonstrationSwitchs, AreWithdrawnWhenPreempted) {
   world.until(State::kDone, 4);
   world.answers = false;
   world.decision().begin(order_of("side"));
@@ -115,7 +115,7 @@ TEST_F(Handovers, AreWithdrawnWhenPreempted) {
   EXPECT_TRUE(world.decision().can_begin());
 }
 
-TEST_F(Handovers, WaitForAPlanOfTheNewDemonstration) {
+TEST_F(DemonstrationSwitchs, WaitForAPlanOfTheNewDemonstration) {
   world.until(State::kDone, 4);
   world.others["side"] = nullptr;
   world.decision().begin(order_of("side"));
@@ -128,7 +128,7 @@ TEST_F(Handovers, WaitForAPlanOfTheNewDemonstration) {
   world.until(State::kForward, 4);
 }
 
-TEST_F(Handovers, AreCompletedByTheNextOrderWhenStoppedOnTheWayBack) {
+TEST_F(DemonstrationSwitchs, AreCompletedByTheNextOrderWhenStoppedOnTheWayBack) {
   world.until(State::kDone, 4);
   world.decision().begin(order_of("side"));
   world.until(State::kReverse, 0.1);
@@ -142,7 +142,7 @@ TEST_F(Handovers, AreCompletedByTheNextOrderWhenStoppedOnTheWayBack) {
 }
 
 // As a planner that is started anew, and finds the file gone.
-TEST_F(Handovers, PauseWhenThePlannerCannotFollowAnyLonger) {
+TEST_F(DemonstrationSwitchs, PauseWhenThePlannerCannotFollowAnyLonger) {
   world.until(State::kDone, 4);
   world.decision().begin(order_of("side"));
   world.until(State::kReverse, 0.1);
@@ -157,7 +157,7 @@ TEST_F(Handovers, PauseWhenThePlannerCannotFollowAnyLonger) {
 }
 
 // As a planner that is started anew, and plans without what was executed. World checks the jump.
-TEST_F(Handovers, DoNotJumpWithAPlannerStartedAnew) {
+TEST_F(DemonstrationSwitchs, DoNotJumpWithAPlannerStartedAnew) {
   world.until(State::kDone, 4);
   world.decision().begin(order_of("side"));
   world.until(State::kReverse, 0.1);
@@ -175,7 +175,7 @@ TEST_F(Handovers, DoNotJumpWithAPlannerStartedAnew) {
   EXPECT_NEAR(world.run(0.5).setpoint->pose.position.z(), 0.55, 0.02);
 }
 
-TEST_F(Handovers, NumberEveryNamingSoThatAFileIsReadAnew) {
+TEST_F(DemonstrationSwitchs, NumberEveryNamingSoThatAFileIsReadAnew) {
   world.until(State::kDone, 4);
   for (std::uint32_t number = 1; number <= 2; ++number) {
     world.decision().begin(order_of("side"));

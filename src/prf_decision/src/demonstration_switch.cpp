@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_decision/handover.hpp"
+#include "prf_decision/demonstration_switch.hpp"
 
 namespace prf_decision {
 
-void Handover::ask(const std::string& name) {
+void DemonstrationSwitch::ask(const std::string& name) {
   asked_ = NamedDemonstration{name, ++count_};
   asked_at_.reset();
 }
 
-Reply Handover::take(std::uint32_t number, bool refused) {
+Reply DemonstrationSwitch::take(std::uint32_t number, bool refused) {
   if (asked_ && number == asked_->number) {
     if (!refused) taken_up_ = *asked_;
     asked_.reset();
@@ -17,7 +17,7 @@ Reply Handover::take(std::uint32_t number, bool refused) {
   return number == taken_up_.number ? Reply::kPlan : Reply::kOfAnother;
 }
 
-bool Handover::is_overdue(Stamp tick) {
+bool DemonstrationSwitch::is_overdue(Stamp tick) {
   if (!asked_) return false;
   if (!asked_at_) asked_at_ = tick;
   return tick - *asked_at_ > kPatience;
