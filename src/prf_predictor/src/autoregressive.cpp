@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/window_predictor.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 constexpr double kPeriod = 1.0 / 15;  // s

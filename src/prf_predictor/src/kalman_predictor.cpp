@@ -3,11 +3,13 @@
 
 #include <utility>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/ekf.hpp"
 #include "prf_predictor/ukf.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 
 bool is_finite(const PointForecast& forecast) {
   return forecast.position.allFinite() && forecast.velocity.allFinite() &&

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "require.hpp"
+#include <prf_core/require.hpp>
 
 namespace prf_predictor {
+
+using prf_core::require;
 
 double VelocityDecay::velocity_factor(double dt) const { return std::exp(-dt / time_constant); }
 

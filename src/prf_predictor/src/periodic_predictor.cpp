@@ -8,9 +8,11 @@
 #include <numeric>
 #include <utility>
 
-#include "require.hpp"
+#include <prf_core/require.hpp>
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

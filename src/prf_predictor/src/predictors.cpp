@@ -5,12 +5,14 @@
 #include <functional>
 #include <limits>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/kalman_predictor.hpp"
 #include "prf_predictor/periodic_predictor.hpp"
 #include "prf_predictor/window_predictor.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 using Values = std::map<std::string, double>;

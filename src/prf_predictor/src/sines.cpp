@@ -3,10 +3,12 @@
 #include <cmath>
 #include <vector>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/window_predictor.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 constexpr double kFastest = 12.0;    // rad/s

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/gaussian.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 constexpr double kNormTolerance = 0.01;

@@ -6,10 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/gaussian.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 double seconds(Nanoseconds duration) { return 1e-9 * static_cast<double>(duration); }

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
-#include "require.hpp"
+#include <prf_core/require.hpp>
 
 namespace prf_predictor {
+
+using prf_core::require;
 
 void validate(const SigmaPointParams& params) {
   require(params.alpha > 0 && params.alpha <= 1, "alpha", params.alpha, "> 0 and <= 1");

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/gaussian.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 namespace {
 
 constexpr double kSpeed = 0.2;        // m/s, what a forecast is thought to miss before any came due

@@ -10,7 +10,8 @@ import sys
 import roslib.packages
 import rospkg
 
-PACKAGE, SIMULATOR, RECORDER = "prf_predictor", "platform_sim", "record_motion"
+PREDICTOR, PACKAGE = "prf_predictor", "prf_studies"
+SIMULATOR, RECORDER = "platform_sim", "record_motion"
 MOTIONS, GAITS = ["none", "light", "heavy"], ["stand", "step"]
 HORIZONS_S = [0.1, 0.25, 0.5, 1.0, 2.0]
 COLUMNS = "time,tag_x,tag_y,tag_z"
@@ -22,7 +23,7 @@ class EvaluationError(Exception):
 
 
 def config_file(*parts):
-    return os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", *parts)
+    return os.path.join(rospkg.RosPack().get_path(PREDICTOR), "config", *parts)
 
 
 def predictor_file(name):
@@ -139,7 +140,7 @@ def parser(name, description):
     result.add_argument("--latency", type=float, default=0.04,
                         help="s between image and forecast; horizons count from the latter")
     result.add_argument("--motions-folder", metavar="FOLDER",
-                        default=os.path.expanduser("~/.cache/prf_predictor/motions"),
+                        default=os.path.expanduser("~/.cache/prf_studies/motions"),
                         help="keeps simulated motions")
     result.add_argument("--jobs", type=int, default=os.cpu_count())
     result.add_argument("--json", metavar="FILE", help="write the table as JSON")

@@ -13,7 +13,7 @@
 #include "camera_transforms.hpp"
 #include "conversions.hpp"
 #include "leap_guard.hpp"
-#include "node_params.hpp"
+#include "params.hpp"
 
 namespace prf_predictor {
 namespace {

@@ -81,7 +81,7 @@ class Commands(unittest.TestCase):
         return os.path.join(cls.holder.name, name)
 
     def run_command(self, name, *arguments, **environment):
-        command = roslib.packages.find_node("prf_predictor", name)[0]
+        command = roslib.packages.find_node("prf_studies", name)[0]
         return subprocess.run([command, *map(str, arguments)], text=True, check=False, timeout=200,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               env={**os.environ, **environment})

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <prf_core/require.hpp>
 #include "prf_predictor/predictors.hpp"
 #include "prf_predictor/target_tracker.hpp"
-#include "require.hpp"
 
 namespace prf_predictor {
+
+using prf_core::require;
 
 struct NodeParams {
   std::string planning_frame;

@@ -15,7 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bag_sights.hpp"
+#include "bag_measurements.hpp"
 #include "predictor_file.hpp"
 #include "prf_predictor/predictors.hpp"
 
@@ -34,7 +34,7 @@ constexpr double kFarthest = 1e4;    // factor that a parameter may change by
 constexpr int kEvaluations = 300;
 constexpr std::array<double, 5> kHorizons{0.1, 0.25, 0.5, 1.0, 2.0};  // s
 
-using Series = std::vector<std::vector<Sight>>;
+using Series = std::vector<std::vector<TimedMeasurement>>;
 
 struct Options {
   std::vector<std::string> bags;
@@ -251,7 +251,7 @@ void run(const Options& options) {
   (void)make_predictor(before.predictor, before.values);
   Series series;
   for (const std::string& bag : options.bags) {
-    series.push_back(sights_in_bag(bag, options.planning_frame, options.tag_id));
+    series.push_back(measurements_in_bag(bag, options.planning_frame, options.tag_id));
   }
   const PredictorFile after = Fit(before, series, options.measurement_scale.has_value()).run();
   const Figures old_figures = follow(before, series, true);
