@@ -3,4 +3,8 @@ from setuptools import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["prf_experiments"], package_dir={"": "src"}))
+ROOMS = ["judge", "record", "report", "run", "sweep", "teach"]
+
+setup(**generate_distutils_setup(
+    packages=["prf_experiments", *("prf_experiments." + room for room in ROOMS)],
+    package_dir={"": "python"}))

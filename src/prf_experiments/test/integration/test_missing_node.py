@@ -17,7 +17,7 @@ import rosgraph
 
 sys.path.insert(0, os.path.dirname(__file__))
 import runs  # noqa: E402
-from prf_experiments import connections, processes  # noqa: E402
+from prf_experiments.run import connections, processes  # noqa: E402
 
 LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "incomplete.launch")
 

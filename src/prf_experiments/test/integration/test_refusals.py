@@ -12,7 +12,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
 import runs  # noqa: E402
-from prf_experiments import session  # noqa: E402
+from prf_experiments.run import session  # noqa: E402
 
 SKILL = session.packaged("demonstrations", "inspect_box.csv")
 

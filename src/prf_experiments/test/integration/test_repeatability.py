@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
 import runs  # noqa: E402
-from prf_experiments import digest, recording  # noqa: E402
+from prf_experiments.record import digest, recording  # noqa: E402
 
 SECONDS = 12.0  # enough for every node to work; too short for a verdict
 CUT_SHORT = 3  # exit code of run_trial for that

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Made-up verdicts of trials, as sweeps give them to the tables."""
-from prf_experiments import arguments as args
-from prf_experiments import trial_arguments
+from prf_experiments.run import arguments as args
+from prf_experiments.run import trial_arguments
 
 DEFAULTS = args.parse([], trial_arguments.LAUNCHED)
 

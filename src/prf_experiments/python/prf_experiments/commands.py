@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Commands that work on bags: judge, inspect, report, bag_digest."""
+import argparse
+import json
+
+from prf_experiments.judge import judge, timeline
+from prf_experiments.record import digest, recording
+from prf_experiments.run import session
+from prf_experiments.teach import demonstration
+
+
+def _judged(bag):
+    """(recording or None, verdict)."""
+    try:
+        data = recording.read(bag)
+        return data, judge.judge(data)
+    except recording.RecordingError as error:
+        return None, judge.invalid(str(error))
+
+
+def judge_main(words):
+    parser = argparse.ArgumentParser(
+        prog="judge", description=judge.__doc__, epilog="Exit 0 for S, P and F, 3 for INVALID.",
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bag")
+    parser.add_argument("--json", metavar="FILE", help="writes verdict and figures there")
+    options = parser.parse_args(words)
+
+    def action():
+        verdict = _judged(options.bag)[1]
+        if options.json:
+            with open(options.json, "w", encoding="utf-8") as stream:
+                json.dump(verdict.as_json(), stream, indent=2)
+                stream.write("\n")
+        print(f"{verdict.verdict}{' (inspected)' if verdict.inspected else ''}: {verdict.reason}")
+        for name, value in verdict.figures.items():
+            print(f"  {name}: {value:.4g}" if isinstance(value, float) else f"  {name}: {value}")
+        return 3 if verdict.verdict == "INVALID" else 0
+    return session.guarded("judge", action)
+
+
+def inspect_main(words):
+    parser = argparse.ArgumentParser(
+        prog="inspect", description="Prints a trial as a timeline: phases and reasons, sights, "
+        "contacts, what the arm could not do, solve times, drops.")
+    parser.add_argument("bag")
+    parser.add_argument("--json", metavar="FILE", help="writes the events there too")
+    options = parser.parse_args(words)
+
+    def action():
+        data = recording.read(options.bag)
+        verdict = judge.judge(data)
+        if options.json:
+            names = ("time_s", "off_axis_mm", "to_stand_off_mm", "event")
+            lines = timeline.event_lines(data, verdict.figures)
+            with open(options.json, "w", encoding="utf-8") as stream:
+                json.dump([dict(zip(names, line)) for line in lines], stream, indent=2)
+                stream.write("\n")
+        print(timeline.text(data, verdict), end="")
+        return 0
+    return session.guarded("inspect", action)
+
+
+def report_main(words):
+    from prf_experiments.report import pictures, report  # matplotlib takes its time
+    parser = argparse.ArgumentParser(prog="report", description="Draws the report of a trial.")
+    parser.add_argument("bag")
+    parser.add_argument("out", help="HTML file to write")
+    parser.add_argument("--demonstration", default=None,
+                        help="file of the skill; else the one that the bag names")
+    options = parser.parse_args(words)
+
+    def action():
+        data, verdict = _judged(options.bag)
+        description = data.description if data else {}
+        skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
+                 or session.packaged("demonstrations", "inspect_box.csv"))
+        report.write(options.out, options.bag, data, {**verdict.as_json(), **description},
+                     demonstration.read(skill),
+                     pictures.of(options.bag, data, verdict.figures) if verdict.figures else "")
+        print(options.out)
+        return 0
+    return session.guarded("report", action)
+
+
+def digest_main(words):
+    parser = argparse.ArgumentParser(
+        prog="bag_digest", description=digest.__doc__,
+        epilog="With two bags: exit 0 when they are identical, 1 when they are not.",
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bag")
+    parser.add_argument("other", nargs="?", help="compares the two topic by topic")
+    options = parser.parse_args(words)
+
+    def action():
+        ours = digest.digests(options.bag)
+        if options.other is None:
+            for (topic, publisher), entry in ours.items():
+                print(f"{entry.sha256} {entry.messages:7d} {topic} [{publisher}]")
+            return 0
+        differences = digest.differences(ours, digest.digests(options.other))
+        print("\n".join(differences) if differences else f"identical: {len(ours)} streams")
+        return 1 if differences else 0
+    return session.guarded("bag_digest", action)

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The verdict of a trial, from its bag alone.
+
+The rules (fixed; they measure the framework and are not to be tuned):
+
+  Reached    The tag's centre is within 100 mm of the camera's optical axis and its distance along
+             the axis within 100 mm of the stand-off, continuously for 1.0 s, by ground truth,
+             within 60 s.
+  Inspected  The same with 40 mm and 2.0 s; reported beside the verdict.
+  S          Reached, and no issue.
+  P          Reached, with an issue: contact of arm, hand or camera with box, panel, platform or
+             body above 1 N, or the tag out of view for more than 1.0 s after it was first seen.
+  F          Not reached, or such a contact above 50 N, or the robot fell, or the arm stopped for
+             an error.
+  INVALID    The recording or a process failed; never S, P or F.
+"""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prf_experiments import geometry
+from prf_experiments.judge import target
+
+SECOND = 1_000_000_000  # ns
+
+STAND_OFF = 0.30  # m, camera to tag along the optical axis, as demonstrated
+REACHED_BOUND = 0.100  # m, across and along the axis
+REACHED_HOLD = 1 * SECOND
+INSPECTED_BOUND = 0.040  # m
+INSPECTED_HOLD = 2 * SECOND
+TIME_LIMIT = 60 * SECOND
+CONTACT_ISSUE = 1.0  # N
+EMERGENCY_STOP = 50.0  # N
+OUT_OF_VIEW_LIMIT = 1 * SECOND
+
+# The V60's body stands about 0.53 m above the deck; lower or more tilted than this it has fallen.
+FALLEN_HEIGHT = 0.35  # m, body above the deck along the deck's normal
+FALLEN_TILT = np.radians(30.0)  # rad, body's z axis to the deck's normal
+LYING = ("body", "platform")  # links whose contact means the same
+
+TICK = SECOND // 100  # joint_states and everything published with them
+MAX_UNANSWERED_IMAGES = 3  # in flight when the trial ends
+
+STATES = ["WAITING", "FORWARD", "PAUSE", "REVERSE", "TRACKING", "RETRACT", "DONE", "STOPPED"]
+EXECUTION = ("FORWARD", "PAUSE", "REVERSE")  # the phases in which the skill is executed
+TRACKING = ("TRACKING",)
+DONE, STOPPED = STATES.index("DONE"), STATES.index("STOPPED")
+
+
+@dataclass
+class Verdict:
+    verdict: str  # S, P, F or INVALID
+    inspected: bool
+    reason: str
+    figures: dict = field(default_factory=dict)
+
+    def as_json(self):
+        return {"verdict": self.verdict, "inspected": self.inspected, "reason": self.reason,
+                "figures": self.figures}
+
+
+def invalid(reason):
+    return Verdict("INVALID", False, reason)
+
+
+def tag_in_camera(camera, tag):
+    """Distance of the tag's centre from the optical axis and along it, (n,) and (n,) m."""
+    position = geometry.compose(geometry.inverse(camera), tag)[:, :3]
+    return np.hypot(position[:, 0], position[:, 1]), position[:, 2]
+
+
+def held(stamps, inside, hold):
+    """First stamp at which `inside` has lasted `hold` ns without a break, or None."""
+    since = None
+    for stamp, good in zip(stamps, inside):
+        since = (stamp if since is None else since) if good else None
+        if since is not None and stamp - since >= hold:
+            return int(stamp)
+    return None
+
+
+def longest_out_of_view(stamps, seen):
+    """Longest time in ns between one sight of the tag and the next (or the last image)."""
+    if not np.any(seen):
+        return 0
+    first = int(np.argmax(seen))
+    sighted = np.append(stamps[first:][seen[first:]], stamps[-1])
+    return int(np.max(np.diff(sighted)))
+
+
+def is_arm(link):
+    """Arm, hand or camera; the arm's base is bolted to the body and counts as body."""
+    return link.startswith(("j2s7s300_", "camera")) and link != "j2s7s300_link_base"
+
+
+def arm_contacts(contacts):
+    """Contacts of arm, hand or camera with anything that is not part of them."""
+    return [contact for contact in contacts
+            if is_arm(contact.links[0]) != is_arm(contact.links[1])]
+
+
+def strongest_by_pair(contacts):
+    strongest = {}
+    for contact in contacts:
+        pair = " | ".join(contact.links)
+        strongest[pair] = max(strongest.get(pair, 0.0), contact.force)
+    return strongest
+
+
+def posture(platform, base):
+    """Height of the body above the deck, m, and its tilt against the deck, rad."""
+    relative = geometry.compose(geometry.inverse(platform), base)
+    up = geometry.rotate(relative[:, 3:], np.array([0.0, 0.0, 1.0]))
+    return relative[:, 2], np.arccos(np.clip(up[:, 2], -1.0, 1.0))
+
+
+def defect(recording):
+    """Why the recording is no evidence, or an empty string."""
+    if len(recording.ticks) < 2:
+        return "no two ticks of joint_states were recorded"
+    series = {"joint_states": recording.ticks, "ground_truth/tag": recording.tag.stamps,
+              "ground_truth/camera": recording.camera.stamps,
+              "ground_truth/base": recording.base.stamps,
+              "ground_truth/platform": recording.platform.stamps,
+              "ground_truth/contacts": recording.contact_stamps,
+              "execution/progress": recording.progress.stamps}
+    for name, stamps in series.items():
+        lost = np.flatnonzero(np.diff(stamps) != TICK)
+        if lost.size:
+            return (f"{name} breaks off {recording.seconds(stamps[lost[0]]):.2f} s into the trial: "
+                    f"next stamp {(stamps[lost[0] + 1] - stamps[lost[0]]) * 1e-9:.3f} s later")
+        if (abs(stamps[0] - recording.ticks[0]) > TICK
+                or abs(stamps[-1] - recording.ticks[-1]) > TICK):
+            return (f"{name} covers {recording.seconds(stamps[0]):.2f} to "
+                    f"{recording.seconds(stamps[-1]):.2f} s of a trial of "
+                    f"{recording.seconds(recording.ticks[-1]):.2f} s")
+    for name in ("tag", "camera", "base", "platform"):
+        if not np.all(np.isfinite(getattr(recording, name).values)):
+            return f"ground_truth/{name} is not finite"
+    unanswered = recording.images - len(recording.sight_stamps)
+    if not 0 <= unanswered <= MAX_UNANSWERED_IMAGES:
+        return f"{recording.images} images but {len(recording.sight_stamps)} tag_detections"
+    finished = (recording.progress.states[-1] in (DONE, STOPPED)
+                or _fall(recording)[0] is not None)
+    duration = recording.ticks[-1] - recording.ticks[0]
+    if not finished and duration < TIME_LIMIT - 2 * TICK:
+        return (f"the trial ends after {duration * 1e-9:.2f} s in state "
+                f"{STATES[recording.progress.states[-1]]}, before its time")
+    return ""
+
+
+def distances(recording):
+    """Stamps that camera and tag share, with the tag's distance off the axis and along it, m."""
+    stamps, at_camera, at_tag = np.intersect1d(recording.camera.stamps, recording.tag.stamps,
+                                               return_indices=True)
+    lateral, along = tag_in_camera(recording.camera.values[at_camera],
+                                   recording.tag.values[at_tag])
+    return stamps, lateral, along
+
+
+def _reached(stamps, lateral, along, bound, hold, deadline):
+    inside = (lateral <= bound) & (np.abs(along - STAND_OFF) <= bound) & (stamps <= deadline)
+    return held(stamps, inside, hold)
+
+
+def _fall(recording):
+    """(stamp or None, lowest height, largest tilt) of the body against the deck."""
+    stamps, at_platform, at_base = np.intersect1d(recording.platform.stamps, recording.base.stamps,
+                                                  return_indices=True)
+    height, tilt = posture(recording.platform.values[at_platform], recording.base.values[at_base])
+    fallen = list(stamps[(height < FALLEN_HEIGHT) | (tilt > FALLEN_TILT)])
+    fallen += [contact.stamp for contact in recording.contacts if contact.links == LYING]
+    return int(min(fallen)) if fallen else None, float(np.min(height)), float(np.max(tilt))
+
+
+def _lateral_statistics(recording, phases, stamps, lateral):
+    """Mean and standard deviation of the lateral distance in some phases, mm, or two None."""
+    states = [STATES.index(name) for name in phases]
+    chosen = lateral[np.isin(stamps, recording.progress.stamps[
+        np.isin(recording.progress.states, states)])]
+    if not chosen.size:
+        return None, None
+    return 1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))
+
+
+def judge(recording):
+    """Verdict of a complete recording."""
+    broken = defect(recording)
+    if broken:
+        return invalid(broken)
+
+    stamps, lateral, along = distances(recording)
+    deadline = recording.start + TIME_LIMIT
+    reached = _reached(stamps, lateral, along, REACHED_BOUND, REACHED_HOLD, deadline)
+    inspected = _reached(stamps, lateral, along, INSPECTED_BOUND, INSPECTED_HOLD, deadline)
+    seen = np.isfinite(recording.sights[:, 0])
+    out_of_view = longest_out_of_view(recording.sight_stamps, seen)
+    touching = arm_contacts(recording.contacts)
+    pairs = strongest_by_pair(touching)
+    force = max(pairs.values(), default=0.0)
+    fall, height, tilt = _fall(recording)
+    stopped = np.flatnonzero(recording.progress.states == STOPPED)
+
+    failures, issues = [], []
+    if stopped.size:
+        when = recording.seconds(recording.progress.stamps[stopped[0]])
+        failures.append(f"the arm stopped at {when:.2f} s: "
+                        + (recording.progress.reasons[stopped[0]] or "no reason given"))
+    if fall is not None:
+        failures.append(f"the robot fell at {recording.seconds(fall):.2f} s")
+    if force > EMERGENCY_STOP:
+        failures.append(_contact_sentence(recording, touching, EMERGENCY_STOP))
+    elif force > CONTACT_ISSUE:
+        issues.append(_contact_sentence(recording, touching, CONTACT_ISSUE))
+    if reached is None:
+        failures.append(_not_reached_sentence(lateral, along))
+    if out_of_view > OUT_OF_VIEW_LIMIT:
+        issues.append(f"tag out of view for {out_of_view * 1e-9:.2f} s")
+
+    reach = "" if reached is None else f"reached at {recording.seconds(reached):.2f} s"
+    verdict = "F" if failures else "P" if issues else "S"
+    reasons = failures + issues if failures else [reach] + (issues or ["no issue"])
+    execution_mean, execution_deviation = _lateral_statistics(recording, EXECUTION, stamps, lateral)
+    tracking_mean, tracking_deviation = _lateral_statistics(recording, TRACKING, stamps, lateral)
+    horizon, forecast_error = target.forecast_error(recording)
+    figures = {
+        "duration_s": float(recording.seconds(recording.ticks[-1])),
+        "reached_s": None if reached is None else float(recording.seconds(reached)),
+        "inspected_s": None if inspected is None else float(recording.seconds(inspected)),
+        "first_seen_s": (float(recording.seconds(recording.sight_stamps[np.argmax(seen)]))
+                         if np.any(seen) else None),
+        "longest_out_of_view_s": out_of_view * 1e-9,
+        "images_seen_fraction": float(np.mean(seen)),
+        "largest_contact_n": force,
+        "largest_contact_by_pair_n": pairs,
+        "smallest_lateral_mm": 1e3 * float(np.min(lateral)),
+        "smallest_along_error_mm": 1e3 * float(np.min(np.abs(along - STAND_OFF))),
+        "final_lateral_mm": 1e3 * float(lateral[-1]),
+        "final_along_error_mm": 1e3 * float(along[-1] - STAND_OFF),
+        "execution_lateral_mean_mm": execution_mean,
+        "execution_lateral_deviation_mm": execution_deviation,
+        "tracking_lateral_mean_mm": tracking_mean,
+        "tracking_lateral_deviation_mm": tracking_deviation,
+        "forecast_horizon_s": horizon,
+        "forecast_error_rms_mm": forecast_error,
+        "fallen_s": None if fall is None else float(recording.seconds(fall)),
+        "lowest_body_height_mm": 1e3 * height,
+        "largest_body_tilt_deg": float(np.degrees(tilt)),
+        "final_state": STATES[recording.progress.states[-1]],
+    }
+    return Verdict(verdict, inspected is not None, "; ".join(reasons), figures)
+
+
+def _contact_sentence(recording, contacts, threshold):
+    first = next(contact for contact in contacts if contact.force > threshold)
+    strongest = max(contacts, key=lambda contact: contact.force)
+    return (f"contact above {threshold:g} N at {recording.seconds(first.stamp):.2f} s "
+            f"({first.links[0]} with {first.links[1]}), at most {strongest.force:.1f} N")
+
+
+def _not_reached_sentence(lateral, along):
+    worst = np.maximum(lateral, np.abs(along - STAND_OFF))
+    best = int(np.argmin(worst))
+    return (f"not reached: at best {1e3 * lateral[best]:.0f} mm beside the axis and "
+            f"{1e3 * (along[best] - STAND_OFF):+.0f} mm along it")

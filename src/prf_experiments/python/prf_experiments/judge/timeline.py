@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A trial as a list of events and a few figures: text for people without a display."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from prf_experiments.judge import judge
+
+FORECASTS = ["no target", "tracking", "coasting", "lost"]  # TargetForecast's status
+PLANS = ["no plan", "solved", "relaxed", "kept the plan before"]  # SkillTrajectory's status
+CONTROLS = ["following", "holding", "limited", "out of reach", "stale set-point",
+            "invalid set-point"]  # ControlStatus' code
+ORDINARY_CONTROLS = [CONTROLS.index("following"), CONTROLS.index("holding")]
+GAP = judge.SECOND // 2  # what happens again within it is one event
+OUT_OF_VIEW = judge.SECOND // 5  # shorter gaps in the sight of the tag are not told
+MOST_OF_A_KIND = 25  # events; what exceeds it is counted only
+COUNTS_OF_NO_LOSS = {"ticks", "images", "tags", "answers", "measurements accepted",
+                     "starts from measured joints"}
+
+
+@dataclass(frozen=True)
+class Event:
+    stamp: int  # ns
+    kind: str
+    text: str
+
+
+def episodes(stamps, gap=GAP):
+    """Slices of rising `stamps` whose neighbours are at most `gap` apart."""
+    if not len(stamps):
+        return []
+    cuts = np.flatnonzero(np.diff(stamps) > gap) + 1
+    edges = [0, *(int(cut) for cut in cuts), len(stamps)]
+    return [slice(first, last) for first, last in zip(edges, edges[1:])]
+
+
+def changes(values):
+    """Rows at which a new value begins, the first one included."""
+    return [0, *(int(row) + 1 for row in np.flatnonzero(np.diff(values)))] if len(values) else []
+
+
+def _lasting(stamps):
+    return f"{1e-9 * (stamps[-1] - stamps[0] + judge.TICK):.2f} s"
+
+
+def _phases(data):
+    progress = data.progress
+    for row in changes(progress.states):
+        reason = progress.reasons[row]
+        yield Event(int(progress.stamps[row]), "phase",
+                    judge.STATES[progress.states[row]] + (f": {reason}" if reason else ""))
+
+
+def _sights(data):
+    seen = data.sight_stamps[np.isfinite(data.sights[:, 0])]
+    if not len(seen):
+        yield Event(data.start, "sight", "the tag is never seen")
+        return
+    yield Event(int(seen[0]), "sight", "the tag is seen for the first time")
+    until = np.append(seen[1:], data.sight_stamps[-1])
+    for lost, found in zip(seen, until):
+        if found - lost > OUT_OF_VIEW:
+            yield Event(int(lost), "sight",
+                        f"the tag is out of view for {1e-9 * (found - lost):.2f} s")
+
+
+def _forecasts(data):
+    for row in changes(data.forecasts.statuses):
+        yield Event(int(data.forecasts.stamps[row]), "forecast",
+                    "forecast: " + FORECASTS[data.forecasts.statuses[row]])
+
+
+def _plans(data):
+    for row in changes([plan.status for plan in data.plans]):
+        plan = data.plans[row]
+        yield Event(plan.stamp, "plan", "plan: " + PLANS[plan.status]
+                    + (f", {plan.message}" if plan.message else ""))
+
+
+def _control(data):
+    control = data.control
+    for code, name in enumerate(CONTROLS):
+        rows = np.flatnonzero(control.codes == code) if code not in ORDINARY_CONTROLS else []
+        for part in episodes(control.stamps[rows] if len(rows) else []):
+            chosen = rows[part]
+            stamps = control.stamps[chosen]
+            yield Event(int(stamps[0]), "arm", f"arm: {name}, {len(chosen)} ticks within "
+                        f"{_lasting(stamps)}: {control.reasons[chosen[0]]}")
+
+
+def _contacts(data):
+    by_pair = {}
+    for contact in judge.arm_contacts(data.contacts):
+        by_pair.setdefault(contact.links, []).append(contact)
+    for links, contacts in by_pair.items():
+        stamps = np.array([contact.stamp for contact in contacts])
+        for part in episodes(stamps):
+            force = max(contact.force for contact in contacts[part])
+            yield Event(int(stamps[part][0]), "contact", f"contact: {links[0]} with {links[1]}, "
+                        f"at most {force:.1f} N within {_lasting(stamps[part])}")
+
+
+def _complaints(data):
+    told = set(data.control.reasons)  # these are told as what the arm could not do
+    for complaint in data.complaints:
+        if complaint.text not in told:
+            yield Event(max(complaint.stamp, data.start), "log",
+                        f"log of {complaint.node}: {complaint.text}")
+
+
+def _milestones(data, figures):
+    for key, text in (("reached_s", "reached, for 1.0 s by now"),
+                      ("inspected_s", "inspected, for 2.0 s by now"), ("fallen_s", "fallen")):
+        if figures.get(key) is not None:
+            yield Event(data.start + int(round(1e9 * figures[key])), "verdict", text)
+
+
+def _limited(data, events):
+    """At most MOST_OF_A_KIND of the events; the last one says how many were left out."""
+    events = sorted(events, key=lambda event: event.stamp)
+    if len(events) > MOST_OF_A_KIND:
+        more = events[MOST_OF_A_KIND:]
+        events = events[:MOST_OF_A_KIND] + [
+            Event(more[0].stamp, more[0].kind, f"… and {len(more)} more events of this kind, the "
+                  f"last at {data.seconds(more[-1].stamp):.2f} s: {more[-1].text}")]
+    return events
+
+
+def events(data, figures):
+    """All events in the order of time. `figures` are those of the verdict."""
+    told = []
+    for kind in (_phases(data), _sights(data), _forecasts(data), _plans(data), _control(data),
+                 _contacts(data), _complaints(data), _milestones(data, figures)):
+        told += _limited(data, kind)
+    return sorted(told, key=lambda event: event.stamp)
+
+
+def event_lines(data, figures):
+    """[(time s, mm off the axis, mm from the stand-off, text)] of every event."""
+    stamps, lateral, along = judge.distances(data)
+    lines = []
+    for event in events(data, figures):
+        row = min(int(np.searchsorted(stamps, event.stamp)), len(stamps) - 1)
+        lines.append((float(data.seconds(event.stamp)), 1e3 * float(lateral[row]),
+                      1e3 * float(along[row] - judge.STAND_OFF), event.text))
+    return lines
+
+
+def phase_lines(data):
+    """[(phase, s spent, mean, standard deviation and largest mm off the axis)]."""
+    stamps, lateral, _ = judge.distances(data)
+    lines = []
+    for state, name in enumerate(judge.STATES):
+        rows = np.isin(stamps, data.progress.stamps[data.progress.states == state])
+        if rows.any():
+            millimetres = 1e3 * lateral[rows]
+            lines.append((name, 1e-9 * judge.TICK * int(rows.sum()), float(millimetres.mean()),
+                          float(millimetres.std()), float(millimetres.max())))
+    return lines
+
+
+def solve_times(data):
+    """Solve times that the planner's diagnostics told, µs; wall-clock, one sample a second."""
+    told = data.diagnostics.get("skill_planner", {}).get("last solve time, us", [])
+    return np.array([float(text) for text in told if float(text) > 0.0])
+
+
+def losses(data):
+    """[(node, what, count)] of everything that a node's diagnostics count as lost or refused."""
+    found = []
+    for node, values in sorted(data.diagnostics.items()):
+        for key, texts in values.items():
+            if key not in COUNTS_OF_NO_LOSS and texts[-1].isdigit() and int(texts[-1]) > 0:
+                found.append((node, key, int(texts[-1])))
+    return found
+
+
+def text(data, verdict):
+    """The whole timeline, for a terminal of 100 columns or more."""
+    inspected = " (inspected)" if verdict.inspected else ""
+    lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", "",
+             "  time, s  off axis, mm  to stand-off, mm  event"]
+    lines += [f"{time:9.2f}  {off:12.0f}  {to:+16.0f}  {what}"
+              for time, off, to, what in event_lines(data, verdict.figures)]
+    lines += ["", "phase      spent, s  off axis, mm: mean     sd    most"]
+    lines += [f"{name:<9}  {spent:8.2f}  {mean:18.1f}  {deviation:5.1f}  {most:6.1f}"
+              for name, spent, mean, deviation, most in phase_lines(data)]
+    times = solve_times(data)
+    lines += [""]
+    if len(times):
+        lines += [f"plans: {len(data.plans)}; solve time, wall clock, {len(times)} samples: "
+                  f"median {np.median(times):.0f} µs, most {times.max():.0f} µs"]
+    error = verdict.figures.get("forecast_error_rms_mm")
+    if error is not None:
+        lines += [f"forecasts {verdict.figures['forecast_horizon_s']:.2f} s ahead: "
+                  f"{error:.1f} mm rms from the truth"]
+    lines += [""] + [f"{node}: {key}: {count}" for node, key, count in losses(data)]
+    return "\n".join(lines).rstrip() + "\n"

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a bag says, topic by topic, as SHA-256.
+
+A digest covers the serialised messages of one publisher on one topic in their order, every field
+including header.seq; receipt times in the bag are not covered. Publishers are kept apart because
+the order between two of them (on tf) is left to the network. Exempt are diagnostics and rosout,
+which carry wall-clock figures, and the trial's description of itself (command, versions).
+"""
+import hashlib
+from dataclasses import dataclass
+
+from prf_experiments.record import recording
+
+EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg", "/" + recording.DESCRIPTION}
+
+
+@dataclass
+class Digest:
+    messages: int
+    sha256: str
+
+
+def digests(path, topics=None):
+    """{(topic, publisher): Digest} of a bag; `topics` restricts it to those names."""
+    hashes, counts = {}, {}
+    with recording.open_bag(path) as bag:
+        present = [name for name in bag.get_type_and_topic_info().topics
+                   if name not in EXEMPT and (topics is None or name in topics)]
+        if not present:
+            return {}
+        for topic, raw, _, header in bag.read_messages(topics=present, raw=True,
+                                                       return_connection_header=True):
+            caller = header["callerid"]
+            key = topic, caller.decode() if isinstance(caller, bytes) else caller
+            hashes.setdefault(key, hashlib.sha256()).update(raw[1])
+            counts[key] = counts.get(key, 0) + 1
+    return {key: Digest(counts[key], hashes[key].hexdigest()) for key in sorted(hashes)}
+
+
+def differences(ours, theirs):
+    """One line for every topic and publisher that is not the same in both."""
+    lines = []
+    for key in sorted(set(ours) | set(theirs)):
+        a, b = ours.get(key), theirs.get(key)
+        if a == b:
+            continue
+        name = f"{key[0]} [{key[1]}]"
+        if a is None or b is None:
+            lines.append(f"{name}: only in the {'second' if a is None else 'first'} bag")
+        elif a.messages != b.messages:
+            lines.append(f"{name}: {a.messages} and {b.messages} messages")
+        else:
+            lines.append(f"{name}: {a.messages} messages that differ")
+    return lines

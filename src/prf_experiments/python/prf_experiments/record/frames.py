@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transforms of a bag's tf, looked up at any stamp, as the framework saw them."""
+import genpy
+import numpy as np
+import tf2_msgs.msg
+import tf2_ros
+
+from prf_experiments.record import recording
+
+HISTORY = 3600.0  # s, longer than any trial
+
+
+def load(path, publisher=None):
+    """tf2 buffer with tf and tf_static of a bag; `publisher` restricts it to one node's."""
+    buffer = tf2_ros.BufferCore(genpy.Duration.from_sec(HISTORY))
+    with recording.open_bag(path) as bag:
+        for topic, raw, _, header in bag.read_messages(topics=["/tf", "/tf_static"], raw=True,
+                                                       return_connection_header=True):
+            caller = header["callerid"]
+            caller = caller.decode() if isinstance(caller, bytes) else caller
+            if publisher is not None and caller != publisher:
+                continue
+            store = buffer.set_transform if topic == "/tf" else buffer.set_transform_static
+            for transform in tf2_msgs.msg.TFMessage().deserialize(raw[1]).transforms:
+                store(transform, caller)
+    return buffer
+
+
+def lookup(buffer, parent, child, stamps):
+    """Poses (n, 7) of child in parent at stamps in ns; NaN where tf cannot tell."""
+    poses = np.full((len(stamps), 7), np.nan)
+    for row, stamp in enumerate(stamps):
+        try:
+            found = buffer.lookup_transform_core(parent, child, genpy.Time(0, int(stamp)))
+        except tf2_ros.TransformException:
+            continue
+        poses[row] = recording.transform_values(found.transform)
+    return poses

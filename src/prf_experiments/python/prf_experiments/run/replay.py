@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plays a trial's sensor topics into the framework alone and compares what it answers."""
+import argparse
+import contextlib
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+from prf_experiments.run import arguments as args
+from prf_experiments.record import digest, recording
+from prf_experiments.run import connections, processes, session
+
+PLAYED = ["clock"] + recording.SENSORS
+COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
+FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonstration"]
+
+
+@contextlib.contextmanager
+def player(bag, log_file, rate):
+    """`rosbag play` of the sensor topics, paused before the first message."""
+    with open(log_file, "w", encoding="utf-8") as log:
+        process = subprocess.Popen(
+            [processes.executable("rosbag", "play"), "--pause", "--queue=0", f"--rate={rate}",
+             "--topics", *("/" + topic for topic in PLAYED), "--bags", bag, "__name:=player"],
+            stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.terminate()
+            process.wait()
+
+
+def replay(bag, folder, rate):
+    """Leaves folder/replay.bag with everything that the framework answered."""
+    description = recording.description(bag)
+    chosen = description.get("arguments", {})
+    play = session.Session(
+        folder=folder, bag="replay.bag",
+        launch_file=session.packaged("launch", "framework.launch"),
+        launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
+                          if chosen.get(name) is not None],
+        topics=recording.OUTPUTS + recording.TRANSFORMS,
+        links=connections.trial_links("player", simulated=False), driver="player")
+    with play.running() as launch, player(bag, play.log("player.log"), rate) as playing, \
+            contextlib.ExitStack() as stack:
+        # Imported here: rospy reads the environment that running() has set.
+        from prf_experiments.run.observer import Observer
+        import std_srvs.srv
+        observer = Observer()
+        stack.callback(observer.close)
+        recorder = stack.enter_context(play.recording())
+        play.wait_until_connected(launch, recorder)
+        observer.call("/player/pause_playback", std_srvs.srv.SetBool, data=False)
+        while playing.poll() is None:
+            launch.check()
+            recorder.check()
+            play.progress.show("playing")
+            time.sleep(0.1)
+        if playing.returncode != 0:
+            raise session.SessionError(f"rosbag play ended with exit code {playing.returncode}")
+        play.close(launch, recorder)
+    play.progress.close()
+    return os.path.join(folder, "replay.bag")
+
+
+def compare(bag, replayed):
+    """(digests of the trial's outputs, of the replay's, lines of differences)."""
+    ours, theirs = digest.digests(bag, COMPARED), digest.digests(replayed, COMPARED)
+    return ours, theirs, digest.differences(ours, theirs)
+
+
+def run(options):
+    if options.folder:
+        os.makedirs(options.folder, exist_ok=True)
+    with contextlib.ExitStack() as stack:
+        folder = options.folder or stack.enter_context(tempfile.TemporaryDirectory())
+        os.makedirs(os.path.join(folder, "log"), exist_ok=True)
+        ours, _, differences = compare(options.bag, replay(options.bag, folder, options.rate))
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as stream:
+            json.dump({"identical": not differences, "differences": differences,
+                       "compared_messages": sum(entry.messages for entry in ours.values())},
+                      stream, indent=2)
+    for (topic, publisher), entry in ours.items():
+        print(f"{entry.messages:7d}  {topic} [{publisher}]")
+    print("\n".join(differences) if differences else "the replay gave identical messages")
+    return 1 if differences else 0
+
+
+def main(words):
+    parser = argparse.ArgumentParser(
+        prog="replay", description="Plays the sensor topics of a trial's bag into the framework "
+        "alone and compares its answers with those in the bag. Exit 0: identical.")
+    parser.add_argument("bag")
+    parser.add_argument("--folder", help="keeps replay.bag and the logs there")
+    parser.add_argument("--rate", type=float, default=1.0, help="times real time")
+    parser.add_argument("--json", metavar="FILE", help="writes the result there too")
+    options = parser.parse_args(words)
+    options.bag = os.path.abspath(options.bag)
+    return session.guarded("replay", lambda: run(options))

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs one closed-loop trial: launch, record, simulate, judge, report."""
+import contextlib
+import json
+import os
+import subprocess
+import sys
+
+import rospkg
+
+from prf_experiments.run import arguments as args
+from prf_experiments.judge import judge
+from prf_experiments.record import recording
+from prf_experiments.run import connections, processes, session, trial_arguments
+from prf_experiments.teach import demonstration
+
+SIMULATOR = "platform_sim"
+START_SERVICE = "/platform_sim/start"
+EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
+
+
+def versions():
+    """What ran, as far as it can be told."""
+    stack = rospkg.RosPack()
+    result = {"prf_experiments": stack.get_manifest("prf_experiments").version,
+              "rosbag": stack.get_manifest("rosbag").version,
+              "python": ".".join(map(str, sys.version_info[:3]))}
+    with contextlib.suppress(OSError, subprocess.SubprocessError):
+        result["commit"] = subprocess.run(
+            ["git", "-C", session.packaged(), "describe", "--always", "--dirty"], check=True,
+            capture_output=True, text=True, timeout=10).stdout.strip()
+    return result
+
+
+def describe(values):
+    """What the bag says about itself."""
+    words = ["rosrun prf_experiments run_trial", *trial_arguments.words(values)]
+    return {"command": " ".join(words),
+            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
+            "versions": versions()}
+
+
+def simulate(run, description):
+    """Runs the trial to the simulator's end and leaves a closed bag. Returns the wall time, s."""
+    with run.running() as launch, contextlib.ExitStack() as stack:
+        # Imported here: rospy reads the environment that running() has set.
+        from prf_experiments.run.observer import Observer
+        observer = Observer(description)
+        stack.callback(observer.close)
+        recorder = stack.enter_context(run.recording())
+        run.wait_until_connected(launch, recorder)
+        run.save_parameters()
+        observer.call(START_SERVICE)
+        wall = run.wait_for_driver(launch, recorder, observer.status)
+        run.close(launch, recorder)
+        return wall
+
+
+def evaluate(folder, description, wall, failure, progress):
+    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
+    from prf_experiments.report import pictures, report  # matplotlib takes its time
+    bag, data = os.path.join(folder, "trial.bag"), None
+    verdict = judge.invalid(failure)
+    if not failure:
+        progress.show("judging", always=True)
+        try:
+            data = recording.read(bag)
+            verdict = judge.judge(data)
+        except recording.RecordingError as error:
+            verdict = judge.invalid(str(error))
+    simulated = verdict.figures.get("duration_s")
+    content = {**verdict.as_json(), **description, "wall_time_s": wall,
+               "simulated_per_real_time": simulated / wall if simulated and wall else None}
+    with open(os.path.join(folder, "verdict.json"), "w", encoding="utf-8") as stream:
+        json.dump(content, stream, indent=2)
+        stream.write("\n")
+    progress.show("drawing the report", always=True)
+    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else ""
+    report.write(os.path.join(folder, "report.html"), bag, data, content,
+                 demonstration.read(skill(description["arguments"])), scene)
+    progress.close()
+    return content
+
+
+def skill(values):
+    return values["demonstration"] or session.packaged("demonstrations", "inspect_box.csv")
+
+
+def session_of(values, folder):
+    """The trial as a session that leaves its bag in `folder`."""
+    return session.Session(
+        folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
+        launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED
+                          if values[name] is not None] + ["paused:=true"],
+        topics=recording.RECORDED,
+        links=connections.trial_links(SIMULATOR)
+        | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR),
+        driver=SIMULATOR)
+
+
+def run(values, folder=None):
+    """Runs one trial and prints what people want to know. Returns the exit code.
+
+    Without `folder` the trial gets a new one in the results folder.
+    """
+    demonstration.read(skill(values))
+    description = describe(values)
+    folder = (session.create_folder(values["results"], trial_arguments.name(values))
+              if folder is None else session.use_folder(folder))
+    trial = session_of(values, folder)
+    print(description["command"], flush=True)
+    failure, wall = "", None
+    try:
+        wall = simulate(trial, description)
+    except (session.SessionError, processes.ProcessError) as error:
+        failure = str(error)
+    finally:
+        trial.progress.close()
+
+    content = evaluate(folder, description, wall, failure, trial.progress)
+    if not values["keep_bag"]:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(os.path.join(folder, "trial.bag"))
+    print(f"verdict {content['verdict']}{' (inspected)' if content['inspected'] else ''}: "
+          f"{content['reason']}")
+    if content["simulated_per_real_time"]:
+        print(f"simulated {content['figures']['duration_s']:.1f} s in {wall:.1f} s: "
+              f"{content['simulated_per_real_time']:.2f} times real time")
+    print(folder)
+    return EXIT_INVALID if content["verdict"] == "INVALID" else EXIT_OK
+
+
+def main(words):
+    valid = trial_arguments.TRIAL
+    if any(word in ("-h", "--help") for word in words):
+        print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + args.usage(valid))
+        return EXIT_OK
+    folder = None
+    if len(words) > 1 and words[0] == "--into":
+        folder, words = os.path.abspath(words[1]), words[2:]
+    try:
+        values = trial_arguments.complete(args.parse(words, valid), words)
+    except args.ArgumentError as error:
+        print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
+        return EXIT_USAGE
+    return session.guarded("run_trial", lambda: run(values, folder))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each part is worth: predictor x decision x planner under heavy motion, stepping."""
+from functools import partial
+
+from prf_experiments.sweep import table
+from prf_experiments.sweep.study import Study
+
+AXES = {"predictor": ["periodic", "ukf", "constant_velocity", "hold"],
+        "decision": ["hmm", "forward"], "planner": ["elte", "dmp"]}
+FIXED = {"motion": "heavy", "gait": "step"}
+
+STUDY = Study("Ablation", AXES, FIXED, partial(table.summarise, axes=tuple(AXES)), table.text,
+              table.parts)

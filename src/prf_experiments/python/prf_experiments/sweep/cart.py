@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The box is pushed aside while the skill is executed: demonstration and adapted path, and the
+error at the end."""
+from prf_experiments.report import report
+from prf_experiments.run import trial
+from prf_experiments.sweep import statistics
+from prf_experiments.teach import demonstration
+from prf_experiments.sweep.compare import with_spread
+from prf_experiments.sweep.study import NO_BAG, Study, cell, letters, read_bag, test_link, values
+from prf_experiments.sweep.table import aligned, shown, tests
+
+AXES = {"framework": [False, True]}
+FIXED = {"scenario": "cart", "motion": "none"}
+NUMBERS = {"final_lateral_mm": "off axis at the end, mm",
+           "final_along_error_mm": "from stand-off at the end, mm",
+           "tracking_lateral_mean_mm": "off axis while tracking, mm"}
+
+
+def spread(results, name):
+    found = statistics.spread([result["figures"].get(name) for result in results])
+    return {"mean": found.mean, "deviation": found.deviation}
+
+
+def summarise(results):
+    return {"cells": [{"framework": framework, "tests": letters(found),
+                       **{name: spread(found, name) for name in NUMBERS}}
+                      for framework in values(results, "framework")
+                      for found in [cell(results, framework=framework)]]}
+
+
+def text(summary):
+    return aligned([("framework", "tests", *NUMBERS.values())]
+                   + [(shown("framework", found["framework"]), tests(found["tests"]),
+                       *(with_spread(found[name], "+.1f") for name in NUMBERS))
+                      for found in summary["cells"]])
+
+
+def parts(_summary, results, folder):
+    """Paths of each cell's first trial."""
+    body = []
+    for framework in values(results, "framework"):
+        result = cell(results, framework=framework)[0]
+        body.append(f"<h2>Framework {shown('framework', framework)}, seed "
+                    f"{result['arguments']['seed']} {test_link(result)}</h2>")
+        bag, data = read_bag(folder, result)
+        if data is None:
+            body.append(NO_BAG)
+            continue
+        skill = demonstration.read(trial.skill(result["arguments"]))
+        body += [f"<p>{words}</p>{drawing}" for _, words, drawing
+                 in report.draw(bag, data, skill)[1:]]
+    return body
+
+
+STUDY = Study("Moving box", AXES, FIXED, summarise, text, parts, keep_bags="all")

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiments by name: one trial, or a sweep of trials with its table and page.
+
+Imports no ROS at the top: `--check` refuses bad arguments before anything is set up or built.
+"""
+import argparse
+import importlib
+import os
+import sys
+
+from prf_experiments.run import arguments as args
+from prf_experiments.run import trial_arguments
+
+EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
+STUDIES = {
+    "table": "verdicts over motion, gait and framework on or off, as the paper's table of trials",
+    "compare": "distances of ELTE, DMP, LTE and elastic maps, stepping, paired by seed",
+    "ablate": "predictor, decision and planner under heavy motion, stepping",
+    "cart": "the box is pushed aside during the execution",
+    "reactive": "target measured, forecast and true, belief and phase; light motion, stepping",
+}
+SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
+
+
+def positive(text):
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value
+
+
+def plain_name(text):
+    if not text or text != os.path.basename(text) or text.startswith("."):
+        raise argparse.ArgumentTypeError(f"'{text}' is not the plain name of a folder")
+    return text
+
+
+def address(text):
+    protocol, separator, place = text.partition("://")
+    if not (protocol and separator and place):
+        raise argparse.ArgumentTypeError(f"'{text}' is not an address as tcp://host:8786")
+    return text
+
+
+def parser():
+    result = argparse.ArgumentParser(
+        prog="run_experiment", formatter_class=argparse.RawDescriptionHelpFormatter,
+        usage="run_experiment [EXPERIMENT [--option ...]] [name:=value ...]",
+        description="Without EXPERIMENT: one trial.",
+        epilog="arguments of trials [default]; sweeps take lists, as in motion:=light,heavy:\n"
+        + args.usage(trial_arguments.TRIAL))
+    commands = result.add_subparsers(dest="experiment", metavar="EXPERIMENT")
+    commands.add_parser("trial", help="one trial, as without any experiment")
+    for name, meaning in STUDIES.items():
+        sweep = commands.add_parser(name, prog=f"run_experiment {name}", help=meaning,
+                                    description=meaning,
+                                    usage="%(prog)s [--option ...] [name:=value ...]")
+        sweep.add_argument("--seeds", type=positive, metavar="N", help="seeds 1..N of each cell")
+        sweep.add_argument("--jobs", type=positive, metavar="N", default=default_jobs(),
+                           help="trials side by side on this machine [%(default)s]")
+        sweep.add_argument("--keep-bags", choices=("failed", "all", "none"),
+                           help="failed: of every trial that is not S [failed; reactive and cart: "
+                           "all]")
+        sweep.add_argument("--scheduler", type=address, metavar="ADDRESS",
+                           help="sends the trials to a Dask cluster, as tcp://host:8786")
+        sweep.add_argument("--name", type=plain_name, default=name, metavar="NAME",
+                           help="folder in the results folder; the same name resumes [%(default)s]")
+        sweep.add_argument("--any-version", action="store_true",
+                           help="resumes also what another version of the code began")
+        sweep.add_argument("--json", metavar="FILE", help="writes the numbers there too")
+    return result
+
+
+def default_jobs():
+    """One for each processor: a trial uses about one on average, since its nodes take turns."""
+    return len(os.sched_getaffinity(0))
+
+
+def parse(words):
+    """(options, name:=value words); raises ArgumentError or, from argparse, SystemExit."""
+    named = [word for word in words if ":=" in word]
+    options = parser().parse_args([word for word in words if ":=" not in word])
+    if options.experiment in STUDIES:
+        options.values = args.parse_lists(named, SWEEP_ARGUMENTS)
+        if options.seeds and "seed" in options.values:
+            raise args.ArgumentError("--seeds and seed:= say the same, give one of them")
+        if len(options.values.get("results", [""])) > 1:
+            raise args.ArgumentError("results:= takes one folder")
+    else:
+        options.values = trial_arguments.complete(args.parse(named, trial_arguments.TRIAL), named)
+    return options, named
+
+
+def main(words):
+    check = "--check" in words
+    words = [word for word in words if word != "--check"]
+    try:
+        options, named = parse(words)
+    except args.ArgumentError as error:
+        print(f"run_experiment: {error}\nvalid arguments:\n{args.usage(trial_arguments.TRIAL)}",
+              file=sys.stderr)
+        return EXIT_USAGE
+    if check:
+        return EXIT_OK
+    if options.experiment in STUDIES:
+        from prf_experiments.sweep import study
+        described = importlib.import_module("prf_experiments.sweep." + options.experiment).STUDY
+        shown = [word for word in words if not word.startswith("results:=")]
+        return study.main(described, options, "./run_experiment " + " ".join(shown))
+    from prf_experiments.run import trial
+    return trial.main(named)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

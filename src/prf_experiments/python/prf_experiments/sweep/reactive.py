@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A look at the reaction: target X and Y measured, forecast and true, belief and phase below."""
+import numpy as np
+
+from prf_experiments.judge import judge, target
+from prf_experiments.report import page, report
+from prf_experiments.sweep import statistics
+from prf_experiments.sweep.study import NO_BAG, Study, read_bag, test_link
+from prf_experiments.sweep.table import aligned
+
+FIXED = {"motion": "light", "gait": "step"}
+AXES_SHOWN = "xy"
+NUMBERS = {"forecast_error_rms_mm": "forecast error, rms", "reached_s": "reached, s",
+           "tracking_lateral_mean_mm": "off axis while tracking, mean"}
+
+
+def summarise(results):
+    found = {name: statistics.spread([result["figures"].get(name) for result in results])
+             for name in NUMBERS}
+    return {"trials_count": len(results),
+            "forecast_horizon_s": next((result["figures"]["forecast_horizon_s"]
+                                        for result in results if result["figures"]), None),
+            **{name: {"mean": spread.mean, "deviation": spread.deviation}
+               for name, spread in found.items()}}
+
+
+def text(summary):
+    rows = [("trials", *NUMBERS.values()),
+            (str(summary["trials_count"]),
+             *("–" if summary[name]["mean"] is None else f"{summary[name]['mean']:.1f}"
+               for name in NUMBERS))]
+    return (aligned(rows) + f"Forecasts are {summary['forecast_horizon_s']} s ahead; distances in "
+            "mm.\n")
+
+
+def phase_shares(data):
+    """Share of the time spent in each phase."""
+    return ", ".join(f"{name.lower()} {100 * np.mean(data.progress.states == state):.0f} %"
+                     for state, name in enumerate(judge.STATES)
+                     if np.any(data.progress.states == state))
+
+
+def axis_errors(data):
+    """Root mean square of the forecast's error along each axis, mm."""
+    found = target.errors(*target.forecast(data)[:2], target.true(data))
+    return [float(error) for error in 1e3 * np.sqrt(np.mean(found**2, axis=0))] or [None] * 3
+
+
+def parts(_summary, results, folder):
+    body = []
+    for result in results:
+        bag, data = read_bag(folder, result)
+        body.append(f"<h2>Seed {result['arguments']['seed']} {test_link(result)}</h2>")
+        if data is None:
+            body.append(NO_BAG)
+            continue
+        body += [f"<p>In the arm's base frame; time spent: {phase_shares(data)}.</p>",
+                 report.target_figure(bag, data, AXES_SHOWN),
+                 page.table([axis_errors(data)],
+                            ("forecast error, rms: x, mm", "y, mm", "z, mm"))]
+    return body
+
+
+STUDY = Study("Reactive execution", {}, FIXED, summarise, text, parts, seeds=1, keep_bags="all")

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all experiments share: axes, sweep, numbers as text, JSON and page."""
+import html
+import json
+import os
+from dataclasses import dataclass
+from typing import Callable
+
+from prf_experiments.run import arguments as args
+from prf_experiments.record import recording
+from prf_experiments.report import page
+from prf_experiments.run import session, trial, trial_arguments
+from prf_experiments.sweep import sweep
+
+EXIT_OK, EXIT_INVALID = 0, 3
+FIRST_SEEDS = 3  # as many as the paper's trials of a cell
+
+
+@dataclass(frozen=True)
+class Study:
+    """One experiment. `results` are the verdicts of all trials, in the order of the axes."""
+
+    title: str
+    axes: dict  # {argument: values}, the seed is added as the last one
+    fixed: dict  # {argument: value} that is not the default
+    summarise: Callable  # results -> {key: ...}, goes into the JSON file
+    text: Callable  # summary -> what the terminal shows
+    parts: Callable  # summary, results, folder -> HTML of the page
+    seeds: int = FIRST_SEEDS
+    keep_bags: str = "failed"
+
+
+def trials(study, options):
+    """The trials of a study as the options restrict or extend it."""
+    axes = {**study.axes, "seed": list(range(1, (options.seeds or study.seeds) + 1))}
+    values = {name: chosen for name, chosen in options.values.items() if name != "results"}
+    fixed = {**args.parse([], trial_arguments.LAUNCHED), **study.fixed}
+    unknown = (set(fixed) | set(axes)) - set(trial_arguments.LAUNCHED)
+    if unknown:
+        raise session.SessionError("this version's trials know no argument " + ", ".join(unknown))
+    for name, chosen in values.items():
+        if name in axes or len(chosen) > 1:
+            axes[name] = chosen
+        else:
+            fixed[name] = chosen[0]
+    return sweep.product(fixed, axes)
+
+
+def link(arguments, folder="."):
+    """Relative address of a trial's report as seen from the study's page."""
+    return os.path.relpath(
+        os.path.join(sweep.trial_folder(folder, arguments), "report.html"), folder)
+
+
+def test_link(result):
+    """A trial's verdict as a link to its report."""
+    verdict = result["verdict"]
+    title = html.escape(f"seed {result['arguments']['seed']}: {result['reason']}", quote=True)
+    return page.Markup(f'<a class="test {verdict}" href="{html.escape(link(result["arguments"]))}" '
+                       f'title="{title}">{letters([result])}</a>')
+
+
+def letters(results):
+    """The verdicts of some trials as one word."""
+    return "".join("×" if result["verdict"] == "INVALID" else result["verdict"]
+                   for result in results)
+
+
+def read_bag(folder, result):
+    """(path, recording) of a trial's bag; the recording is None when the bag was not kept."""
+    bag = os.path.join(sweep.trial_folder(folder, result["arguments"]), "trial.bag")
+    try:
+        return bag, recording.read(bag)
+    except recording.RecordingError:
+        return bag, None
+
+
+NO_BAG = "<p>Its bag is not there; keep it with <code>--keep-bags all</code>.</p>"
+
+
+def cell(results, **chosen):
+    """Those results whose arguments have the chosen values."""
+    return [result for result in results
+            if all(result["arguments"][name] == value for name, value in chosen.items())]
+
+
+def values(results, name):
+    """Values of an argument in the order in which they occur."""
+    return list(dict.fromkeys(result["arguments"][name] for result in results))
+
+
+def write_page(path, study, command, versions, results, body):
+    shared = {name: found[0] for name in trial_arguments.LAUNCHED
+              if len(found := values(results, name)) == 1}
+    took = sum(result.get("disk_bytes", 0) for result in results)
+    parts = [f"<pre>{html.escape(command)}</pre>", *body,
+             "<h2>Trials</h2>",
+             page.table([(test_link(result), trial_arguments.name(result["arguments"]),
+                          result["inspected"], result["reason"]) for result in results],
+                        ("verdict", "trial", "inspected", "reason")),
+             "<h2>Arguments that all trials share, and versions</h2>",
+             page.table([*((name, args.show(value)) for name, value in shared.items()),
+                         *versions.items(), ("disk, MB", took / sweep.MEGABYTE)])]
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(page.whole(study.title, parts))
+
+
+def run(study, options, command):
+    folder = os.path.join(options.values.get("results", [os.path.abspath("results")])[0],
+                          options.name)
+    versions = trial.versions()
+    chosen = sweep.Options(options.jobs, options.keep_bags or study.keep_bags, options.scheduler,
+                           options.any_version)
+    results = sweep.run(trials(study, options), folder, chosen, versions)
+    summary = {"command": command, "versions": versions, **study.summarise(results),
+               "trials": [{**result, "report": link(result["arguments"])} for result in results]}
+    for path in filter(None, (os.path.join(folder, "summary.json"), options.json)):
+        with open(path, "w", encoding="utf-8") as stream:
+            json.dump(summary, stream, indent=2)
+            stream.write("\n")
+    body = [f'<pre class="wide">{html.escape(study.text(summary))}</pre>',
+            *study.parts(summary, results, folder)]
+    index = os.path.join(folder, "index.html")
+    write_page(index, study, command, versions, results, body)
+    print(study.text(summary) + "\n" + index)
+    return EXIT_INVALID if any(result["verdict"] == "INVALID" for result in results) else EXIT_OK
+
+
+def main(study, options, command):
+    return session.guarded("run_experiment", lambda: run(study, options, command))

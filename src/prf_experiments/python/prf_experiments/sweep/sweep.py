@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many trials: side by side, on this machine or on a Dask cluster, resumable.
+
+A sweep lives in one folder: `sweep.json` (what began it) and `trials/<name>/` for each trial. Only
+this folder is shared with workers elsewhere; they have the same software installed.
+"""
+import concurrent.futures
+import contextlib
+import fcntl
+import itertools
+import json
+import os
+import sys
+import time
+from dataclasses import dataclass
+
+from prf_experiments.run import trial_arguments
+from prf_experiments.sweep import trial_runner
+from prf_experiments.run.session import Interrupted, SessionError
+
+BAR = 24  # characters
+MEGABYTE = 1e6
+CONNECT_TIMEOUT = 20.0  # s
+
+
+@dataclass(frozen=True)
+class Options:
+    jobs: int
+    keep_bags: str = "failed"
+    scheduler: str = None  # address of a Dask scheduler, None: this machine
+    any_version: bool = False
+
+
+def product(fixed, axes):
+    """A trial {argument: value} for every combination of the axes {argument: values}."""
+    return [{**fixed, **dict(zip(axes, values))} for values in itertools.product(*axes.values())]
+
+
+def trial_folder(folder, values):
+    return os.path.join(folder, "trials", trial_arguments.name(values))
+
+
+def finished(folder, values):
+    """The verdict of a trial that needs no repetition, else None."""
+    content = trial_runner.read(trial_folder(folder, values))
+    if content is None or content["verdict"] == "INVALID":
+        return None
+    same = all(content["arguments"].get(name) == values[name]
+               for name in trial_arguments.LAUNCHED)
+    return content if same else None
+
+
+@contextlib.contextmanager
+def locked(folder):
+    """The folder for one sweep at a time."""
+    try:
+        os.makedirs(os.path.join(folder, "trials"), exist_ok=True)
+        stream = open(os.path.join(folder, ".lock"), "w", encoding="utf-8")
+    except OSError as error:
+        raise SessionError(f"{folder} cannot be written: {error.strerror}") from None
+    with stream:
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise SessionError(f"another sweep is at work in {folder}") from None
+        yield
+
+
+def begin(folder, versions, any_version):
+    """Notes what makes the sweep; refuses to mix trials of several versions."""
+    path = os.path.join(folder, "sweep.json")
+    with contextlib.suppress(OSError, ValueError), open(path, encoding="utf-8") as stream:
+        before = json.load(stream)["versions"]
+        if before != versions and not any_version:
+            raise SessionError(
+                f"{folder} holds trials of version {before.get('commit', before)}, this is "
+                f"{versions.get('commit', versions)}: go on with --any-version, or afresh with "
+                "another --name")
+    with open(path, "w", encoding="utf-8") as stream:
+        json.dump({"versions": versions}, stream, indent=2)
+
+
+class Board:
+    """What people see: a line for each finished trial, and on a terminal a bar below them."""
+
+    def __init__(self, total, kept, stream=sys.stdout, clock=time.monotonic):
+        self._total, self._kept, self._stream, self._clock = total, kept, stream, clock
+        self._started, self._done, self._counts = clock(), 0, {}
+        self._terminal = stream.isatty()
+        self._write(f"{total} trials" + (f", {kept} of them finished before" if kept else ""))
+
+    def _write(self, text):
+        self._stream.write(("\r\x1b[K" if self._terminal else "") + text + "\n")
+        self._stream.flush()
+
+    def left(self):
+        """Seconds that the rest will take, None before the first trial is done."""
+        if not self._done:
+            return None
+        waiting = self._total - self._kept - self._done
+        return waiting * (self._clock() - self._started) / self._done
+
+    def bar(self):
+        done = self._kept + self._done
+        filled = BAR * done // max(1, self._total)
+        counts = "  ".join(f"{verdict} {count}" for verdict, count in sorted(self._counts.items()))
+        left = self.left()
+        return (f"[{'#' * filled}{'.' * (BAR - filled)}] {done}/{self._total}  {counts}  "
+                + ("" if left is None else f"about {left / 60:.0f} min left" if left >= 90
+                   else f"about {left:.0f} s left"))
+
+    def tell(self, values, content):
+        self._done += 1
+        self._counts[content["verdict"]] = self._counts.get(content["verdict"], 0) + 1
+        again = "".join(f", after {reason}" for reason in content["failed_attempts"])
+        self._write(f"{self._kept + self._done}/{self._total} {content['verdict']:<7} "
+                    f"{trial_arguments.name(values)}: {content['reason']} "
+                    f"({content['disk_bytes'] / MEGABYTE:.0f} MB{again})")
+        self.refresh()
+
+    def refresh(self):
+        if self._terminal:
+            self._stream.write("\r\x1b[K" + self.bar())
+            self._stream.flush()
+
+    def close(self, folder):
+        used = trial_runner.size(os.path.join(folder, "trials")) / MEGABYTE
+        self._write(f"{self._done} trials in {(self._clock() - self._started) / 60:.1f} min; "
+                    f"{folder} takes {used:.0f} MB on disk")
+
+
+@contextlib.contextmanager
+def executor(options):
+    """Where trials are sent: something with submit() that gives concurrent futures."""
+    if options.scheduler is None:
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            yield pool
+        return
+    import distributed  # half a second, and only needed here
+    try:
+        client = distributed.Client(options.scheduler, timeout=CONNECT_TIMEOUT,
+                                    set_as_default=False)
+    except (OSError, ValueError, distributed.TimeoutError) as error:
+        raise SessionError(f"no Dask scheduler answers at {options.scheduler}: {error}") from None
+    with client:
+        yield client.get_executor(pure=False)
+
+
+def run(trials, folder, options, versions, attempt=trial_runner.run_process, board=Board):
+    """Verdicts of all trials in their order; those of an earlier, interrupted run are kept."""
+    with locked(folder):
+        begin(folder, versions, options.any_version)
+        results = {row: finished(folder, values) for row, values in enumerate(trials)}
+        waiting = [row for row, content in results.items() if content is None]
+        shown = board(len(trials), len(trials) - len(waiting))
+        with executor(options) as pool:
+            futures = {pool.submit(trial_runner.execute, trials[row],
+                                   trial_folder(folder, trials[row]), options.keep_bags,
+                                   attempt): row for row in waiting}
+            try:
+                while futures:
+                    done, _ = concurrent.futures.wait(
+                        futures, timeout=1.0, return_when=concurrent.futures.FIRST_COMPLETED)
+                    for future in done:
+                        row = futures.pop(future)
+                        results[row] = future.result()
+                        shown.tell(trials[row], results[row])
+                    shown.refresh()
+            except (Exception, Interrupted):
+                for future in futures:
+                    future.cancel()
+                trial_runner.stop_running()
+                raise
+        shown.close(folder)
+        return [results[row] for row in range(len(trials))]

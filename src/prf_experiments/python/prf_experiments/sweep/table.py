@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Verdicts of the trials, motion x gait x framework, as the paper's table and as rates.
+
+Other tables of verdicts differ in their axes only; a summary says which ones it has.
+"""
+import itertools
+
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from prf_experiments.report import figures, page
+from prf_experiments.sweep import statistics
+from prf_experiments.sweep.study import Study, cell, letters, test_link, values
+
+AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
+        "framework": [False, True]}
+ORDER = ("framework", "motion", "gait")
+VERDICTS = ("S", "P", "F", "INVALID")
+SHADES = {"S": ("0.82", ""), "P": ("white", "////"), "F": ("0.1", ""), "INVALID": ("white", "xx")}
+MARK = {"color": "black", "marker": "|", "markersize": 12, "linestyle": "none",
+        "markeredgewidth": 1.6, "alpha": 0.8}
+
+
+def cells(results, axes):
+    """(chosen arguments, results) of every cell, in the order of the table."""
+    for chosen in itertools.product(*(values(results, name) for name in axes)):
+        named = dict(zip(axes, chosen))
+        yield named, cell(results, **named)
+
+
+def rate(count, trials):
+    low, high = statistics.wilson(count, trials)
+    return {"fraction": count / trials if trials else None, "fraction_low_95": low,
+            "fraction_high_95": high}
+
+
+def row(chosen, results):
+    """The numbers of one cell. Trials that are INVALID count in no rate."""
+    counts = {verdict: sum(result["verdict"] == verdict for result in results)
+              for verdict in VERDICTS}
+    valid = len(results) - counts["INVALID"]
+    inspected = sum(result["inspected"] for result in results)
+
+    def spread(name):
+        found = statistics.spread([result["figures"].get(name) for result in results])
+        return {"mean": found.mean, "deviation": found.deviation}
+    return {**chosen, "tests": letters(results),
+            "seeds": [result["arguments"]["seed"] for result in results],
+            "counts": counts, "inspected_count": inspected,
+            "success": rate(counts["S"], valid), "inspected": rate(inspected, valid),
+            "tracking_lateral_mm": spread("tracking_lateral_mean_mm"),
+            "largest_contact_n": max((result["figures"].get("largest_contact_n", 0.0)
+                                      for result in results), default=0.0)}
+
+
+def summarise(results, axes=ORDER):
+    return {"axes": list(axes), "cells": [row(*found) for found in cells(results, axes)]}
+
+
+def shown(name, value):
+    return ("on" if value else "off") if name == "framework" else str(value)
+
+
+def percent(found):
+    if found["fraction"] is None:
+        return "–"
+    return (f"{100 * found['fraction']:3.0f} ({100 * found['fraction_low_95']:.0f}–"
+            f"{100 * found['fraction_high_95']:.0f})")
+
+
+def tests(text):
+    """Verdicts in groups of ten; few of them apart, as in the paper's table."""
+    if len(text) <= 10:
+        return " ".join(text)
+    return " ".join(text[first:first + 10] for first in range(0, len(text), 10))
+
+
+def aligned(rows):
+    """Lines of text with the words of each row under each other."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return "\n".join("  ".join(word.ljust(width) for word, width in zip(line, widths)).rstrip()
+                     for line in rows) + "\n"
+
+
+def text(summary):
+    rows = [(*summary["axes"], "tests", "S", "P", "F", "inv", "success, % (95 %)",
+             "inspected, % (95 %)", "off axis, mm", "contact, N")]
+    for found in summary["cells"]:
+        off = found["tracking_lateral_mm"]["mean"]
+        rows.append((*(shown(name, found[name]) for name in summary["axes"]),
+                     tests(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
+                     percent(found["success"]), percent(found["inspected"]),
+                     "–" if off is None else f"{off:.1f}", f"{found['largest_contact_n']:.1f}"))
+    return aligned(rows)
+
+
+def labels_of(summary):
+    return [", ".join(shown(name, item[name]) for name in summary["axes"])
+            for item in summary["cells"]]
+
+
+def distance_figure(summary, results):
+    """One mark for each trial: how far the tag was off the axis while tracking."""
+    labels = labels_of(summary)
+    figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(labels)), layout="constrained")
+    axes = figure.subplots()
+    for line, (_, found) in enumerate(cells(results, summary["axes"])):
+        off = [result["figures"].get("tracking_lateral_mean_mm") for result in found]
+        off = [value for value in off if value is not None]
+        axes.plot(off, [line] * len(off), **MARK)
+    axes.set_yticks(range(len(labels)), labels)
+    axes.set_ylim(len(labels) - 0.5, -0.5)
+    axes.set_xlim(left=0.0)
+    axes.grid(True, color="0.88", linewidth=0.6)
+    axes.set_xlabel("mean distance of the tag's centre from the optical axis while tracking, mm",
+                    fontsize=9)
+    axes.tick_params(labelsize=8)
+    return figures.svg(figure, "Distance of the tag from the optical axis in each trial")
+
+
+def counts_figure(summary):
+    """Stacked counts of each cell; told apart by lightness and hatching."""
+    found, labels = summary["cells"], labels_of(summary)
+    figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(found)), layout="constrained")
+    axes = figure.subplots()
+    left = [0] * len(found)
+    for verdict in VERDICTS:
+        counts = [item["counts"][verdict] for item in found]
+        shade, hatch = SHADES[verdict]
+        axes.barh(labels, counts, left=left, color=shade, hatch=hatch, edgecolor="black",
+                  linewidth=0.8, label=verdict)
+        left = [before + count for before, count in zip(left, counts)]
+    axes.invert_yaxis()
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.set_xlabel("trials", fontsize=9)
+    axes.tick_params(labelsize=8)
+    axes.legend(ncols=4, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    return figures.svg(figure, "Verdicts of each cell: success, partial success, failure, invalid")
+
+
+def parts(summary, results, _folder):
+    axes = summary["axes"]
+    linked = [(*(shown(name, chosen[name]) for name in axes),
+               page.Markup(" ".join(test_link(result) for result in found)),
+               percent(numbers["success"]), percent(numbers["inspected"]))
+              for (chosen, found), numbers in zip(cells(results, axes), summary["cells"])]
+    return ["<h2>Each test</h2><p>Every letter leads to its trial.</p>",
+            page.table(linked, (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)")),
+            "<h2>Counts</h2>", counts_figure(summary),
+            "<h2>Distances</h2>", distance_figure(summary, results),
+            "<p>S success, P partial success, F failure, × no evidence. Rates are of the valid "
+            "trials, with Wilson's 95 % interval. Off axis: mean distance of the tag's centre from "
+            "the optical axis while tracking. Contact: the largest of arm, hand or camera.</p>"]
+
+
+STUDY = Study("Trials", AXES, {}, summarise, text, parts)

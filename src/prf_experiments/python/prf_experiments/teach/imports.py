@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Demonstrations recorded elsewhere: tables, bags and HDF5 files as demonstration files.
+
+CSV    columns time, x, y, z, qx, qy, qz, qw in any order, others are ignored; `#` begins a comment.
+bag    joint_states, tf and tag_detections; the target is where the tag is seen at the end.
+HDF5   what the authors' public recorders write: the group `toolpose_info` or `transform_info` with
+       <name>_positions (n, 3) m, <name>_orientations (n, 4) x y z w and <name>_time, else joint_time
+       of the group `joint_state_info`, row by row: seconds and nanoseconds (n, 2), or seconds (n,).
+
+CSV and HDF5 files do not say where the target was: tell it with --target-pose, else it is taken to
+be where the camera on the hand would have it at the end of the skill, at the stand-off on its axis.
+"""
+import argparse
+import csv
+import os
+
+import numpy as np
+
+from prf_experiments import geometry
+from prf_experiments.judge import judge
+from prf_experiments.record import recording
+from prf_experiments.run import session
+from prf_experiments.teach import demonstration, teaching
+from prf_experiments.teach.demonstration import DemonstrationError
+
+CAMERA_IN_HAND = [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0]
+TAG_BEFORE_CAMERA = [0.0, 0.0, judge.STAND_OFF, 1.0, 0.0, 0.0, 0.0]  # upright, facing the camera
+# The arm's recording of the ELTE repository (github.com/brenhertel/ELTE, scripts/elte_3d_box.py reads
+# its joint_state_info and toolpose_info), and the recorders of github.com/brenhertel/pearl_ur5e
+# (src/scripts/demo_record_*.py: transform_info). toolpose_time is named after the others' pattern;
+# neither repository shows a recorder that writes it.
+HAND_GROUPS = ("toolpose", "transform")
+MIN_NORM = 0.5  # of a recorded quaternion; what is shorter says nothing
+
+
+def target_at_stand_off(hand):
+    """Pose of the tag that the camera sees as demonstrated from this pose of the hand."""
+    return geometry.compose(geometry.compose(hand, CAMERA_IN_HAND), TAG_BEFORE_CAMERA)
+
+
+def read_csv(path):
+    """(times (n,) s, poses (n, 7)) of a table with named columns."""
+    try:
+        with open(path, encoding="utf-8", newline="") as stream:
+            rows = list(csv.reader(line for line in stream
+                                   if line.strip() and not line.startswith("#")))
+    except (OSError, UnicodeDecodeError) as error:
+        raise DemonstrationError(f"{path}: cannot be read: {error}") from None
+    names = [name.strip() for name in rows[0]] if rows else []
+    missing = [name for name in demonstration.COLUMNS if name not in names]
+    if missing:
+        raise DemonstrationError(f"{path}: no column " + ", ".join(missing))
+    order = [names.index(name) for name in demonstration.COLUMNS]
+    try:
+        table = np.array([[float(row[column]) for column in order] for row in rows[1:]])
+    except (ValueError, IndexError):
+        raise DemonstrationError(f"{path}: a row lacks numbers") from None
+    table = table.reshape(-1, len(order))
+    return table[:, 0], table[:, 1:]
+
+
+def seconds(stamps):
+    """Times in s of a recording's stamps: seconds, or rows of seconds and nanoseconds."""
+    stamps = np.asarray(stamps, dtype=float)
+    if stamps.ndim == 2 and stamps.shape[1] == 2:
+        return (stamps[:, 0] - stamps[0, 0]) + 1e-9 * stamps[:, 1]
+    return stamps.reshape(-1)
+
+
+def dataset(file, path, names, columns):
+    """The first of the named data sets (n, columns) that the file has."""
+    for name in names:
+        if name in file:
+            values = np.asarray(file[name], dtype=float)
+            if columns and (values.ndim != 2 or values.shape[1] != columns):
+                raise DemonstrationError(
+                    f"{path}: {name} has shape {values.shape}, must be (n, {columns})")
+            return values
+    raise DemonstrationError(f"{path}: no data set {' or '.join(names)}")
+
+
+def read_hdf5(path):
+    """(times (n,) s, poses (n, 7)) of a recording in HDF5."""
+    import h5py  # a tenth of a second, and only needed here
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise DemonstrationError(f"{path}: cannot be read: {error}") from None
+    with file:
+        group = next((each for each in HAND_GROUPS if f"{each}_info" in file), HAND_GROUPS[0])
+        hand = f"{group}_info/{group}"
+        positions = dataset(file, path, [f"{hand}_positions"], 3)
+        orientations = dataset(file, path, [f"{hand}_orientations"], 4)
+        times = seconds(dataset(file, path, [f"{hand}_time", "joint_state_info/joint_time"], None))
+    if not len(times) == len(positions) == len(orientations):
+        raise DemonstrationError(f"{path}: {len(times)} times, {len(positions)} positions and "
+                                 f"{len(orientations)} orientations")
+    return times, np.hstack([positions, orientations])
+
+
+def clean(times, poses, path):
+    """Rows in rising time with unit quaternions; a row of the same time as the one before goes."""
+    if not (np.all(np.isfinite(times)) and np.all(np.isfinite(poses))):
+        raise DemonstrationError(f"{path}: a number is not finite")
+    if np.any(np.diff(times) < 0.0):
+        row = int(np.argmax(np.diff(times) < 0.0)) + 2
+        raise DemonstrationError(f"{path}: time goes back at row {row}")
+    kept = np.append(True, np.diff(times) > 0.0)[:len(times)]
+    times, poses = times[kept], poses[kept].copy()
+    norms = np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
+    if np.any(norms < MIN_NORM):
+        raise DemonstrationError(f"{path}: row {int(np.argmin(norms)) + 1} has no orientation")
+    poses[:, 3:] /= norms
+    if len(times) < 2:
+        raise DemonstrationError(f"{path}: {len(times)} rows are no motion")
+    return times - times[0], poses
+
+
+READERS = {".csv": read_csv, ".h5": read_hdf5, ".hdf5": read_hdf5}
+
+
+def convert(path, target, command):
+    """Demonstration of a file; `target` is the tag's pose (7,) in the arm's base, or None."""
+    kind = os.path.splitext(path)[1].lower()
+    if kind == ".bag":
+        return teaching.convert(path, command)
+    if kind not in READERS:
+        raise DemonstrationError(f"{path}: must end with .bag, " + ", ".join(READERS))
+    if not os.path.exists(path):
+        raise DemonstrationError(f"{path}: there is no such file")
+    times, poses = clean(*READERS[kind](path), path)
+    part = teaching.moving_part(times, poses)
+    times, poses = teaching.resample(times[part], poses[part], teaching.RATE)
+    if target is None:
+        target = target_at_stand_off(poses[-1])
+    return demonstration.Demonstration(recording.PLANNING_FRAME, teaching.HAND_FRAME, target, times,
+                                       poses, {"made by": command})
+
+
+def pose(text):
+    numbers = np.array([float(word) for word in text.split()])
+    if numbers.shape != (7,) or not np.all(np.isfinite(numbers)):
+        raise argparse.ArgumentTypeError("must be seven numbers: x y z qx qy qz qw")
+    norm = np.linalg.norm(numbers[3:])
+    if norm < MIN_NORM:
+        raise argparse.ArgumentTypeError("its quaternion is no orientation")
+    return np.append(numbers[:3], numbers[3:] / norm)
+
+
+def main(words):
+    parser = argparse.ArgumentParser(
+        prog="import_demonstration", description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", help="file that ends with .bag, " + ", ".join(READERS))
+    parser.add_argument("out", help="demonstration file to write (CSV)")
+    parser.add_argument("--target-pose", type=pose, metavar='"x y z qx qy qz qw"',
+                        help="of the tag in " + recording.PLANNING_FRAME)
+    options = parser.parse_args(words)
+
+    def action():
+        if options.target_pose is not None and options.source.lower().endswith(".bag"):
+            raise DemonstrationError("a bag's detections tell the target, --target-pose cannot")
+        result = convert(options.source, options.target_pose,
+                         "rosrun prf_experiments import_demonstration "
+                         + os.path.basename(options.source))
+        demonstration.write(options.out, result)
+        print(f"{len(result.times)} poses over {result.times[-1]:.1f} s: {options.out}")
+        return 0
+    return session.guarded("import_demonstration", action)

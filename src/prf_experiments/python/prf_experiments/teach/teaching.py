@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a guided hand to a demonstration file: records the teaching, converts its bag."""
+import argparse
+import contextlib
+import os
+import tempfile
+
+import numpy as np
+
+from prf_experiments import geometry
+from prf_experiments.record import frames, recording
+from prf_experiments.run import session
+from prf_experiments.teach import demonstration
+
+HAND_FRAME = "j2s7s300_end_effector"
+RATE = 20.0  # Hz, of the demonstration
+MOVING_SPEED = 0.01  # m/s, slower the hand counts as still
+MOVING_RATE = 0.01  # rad/s
+TARGET_WINDOW = 1.0  # s at the end of the bag over which the target's pose is averaged
+LINKS = {("/joint_states", "/platform_sim", "/robot_state_publisher"),
+         ("/joint_states", "/platform_sim", "/teach_guide"),
+         ("/camera/image_raw", "/platform_sim", "/tag_detector"),
+         ("/" + recording.GUIDE, "/teach_guide", "/platform_sim")}
+RECORDED = (["clock"] + recording.SENSORS + recording.GROUND_TRUTH + ["tag_detections"]
+            + recording.TRANSFORMS + recording.EXEMPT + [recording.GUIDE])
+
+
+def moving_part(times, poses):
+    """Slice of the rows from the first to the last motion of the hand."""
+    steps = np.diff(times)
+    speed = np.linalg.norm(np.diff(poses[:, :3], axis=0), axis=1) / steps
+    turned = geometry.multiply(poses[1:, 3:], geometry.conjugate(poses[:-1, 3:]))
+    rate = np.linalg.norm(geometry.log(turned), axis=1) / steps
+    moving = np.flatnonzero((speed > MOVING_SPEED) | (rate > MOVING_RATE))
+    if not moving.size:
+        raise demonstration.DemonstrationError("the hand never moves")
+    return slice(int(moving[0]), int(moving[-1]) + 2)
+
+
+def resample(times, poses, rate):
+    """Poses at even times from the first to the last row, both of them included."""
+    count = max(2, int(round((times[-1] - times[0]) * rate)) + 1)
+    at = np.linspace(times[0], times[-1], count)
+    result = np.empty((count, 7))
+    for row, time in enumerate(at):
+        index = min(max(int(np.searchsorted(times, time, side="right")) - 1, 0), len(times) - 2)
+        fraction = (time - times[index]) / (times[index + 1] - times[index])
+        before, after = poses[index], poses[index + 1]
+        result[row, :3] = before[:3] + fraction * (after[:3] - before[:3])
+        result[row, 3:] = geometry.slerp(before[3:], after[3:], fraction)
+    flip = np.sum(result[1:, 3:] * result[:-1, 3:], axis=1) < 0.0
+    result[1:, 3:] *= np.where(np.cumsum(flip) % 2 == 1, -1.0, 1.0)[:, None]
+    result[:, 3:] /= np.linalg.norm(result[:, 3:], axis=1, keepdims=True)
+    return at - times[0], result
+
+
+def _stamps(path, topic):
+    with recording.open_bag(path) as bag:
+        return np.array([message.header.stamp.to_nsec()
+                         for _, message, _ in bag.read_messages(topics=["/" + topic])],
+                        dtype=np.int64)
+
+
+def _target(path, tag_id):
+    """Mean pose of the tag in the planning frame over the bag's last detections."""
+    buffer = frames.load(path)
+    stamps = _stamps(path, "tag_detections")
+    stamps = stamps[stamps >= stamps[-1] - int(1e9 * TARGET_WINDOW)] if stamps.size else stamps
+    with recording.open_bag(path) as bag:
+        sights = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
+                  for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
+    camera = frames.lookup(buffer, recording.PLANNING_FRAME, "camera_optical_frame", stamps)
+    seen = geometry.compose(camera, np.array([sights[stamp] for stamp in stamps]).reshape(-1, 7))
+    seen = seen[np.all(np.isfinite(seen), axis=1)]
+    if not len(seen):
+        raise demonstration.DemonstrationError(
+            f"{path}: the tag is not seen in the last {TARGET_WINDOW:g} s")
+    return np.concatenate([np.mean(seen[:, :3], axis=0), geometry.mean_quaternion(seen[:, 3:])])
+
+
+def convert(path, command, tag_id=0):
+    """Demonstration from a bag of joint_states, tf and tag_detections."""
+    target = _target(path, tag_id)
+    stamps = _stamps(path, "joint_states")
+    hand = frames.lookup(frames.load(path, "/robot_state_publisher"), recording.PLANNING_FRAME,
+                         HAND_FRAME, stamps)
+    known = np.all(np.isfinite(hand), axis=1)
+    if known.sum() < 2:
+        raise demonstration.DemonstrationError(f"{path}: tf has no pose of {HAND_FRAME}")
+    times, hand = 1e-9 * (stamps[known] - stamps[known][0]), hand[known]
+    part = moving_part(times, hand)
+    times, poses = resample(times[part], hand[part], RATE)
+    return demonstration.Demonstration(recording.PLANNING_FRAME, HAND_FRAME, target, times, poses,
+                                       {"made by": command})
+
+
+def teach(folder, seed):
+    """Records folder/teach.bag with the arm led to the target."""
+    lesson = session.Session(
+        folder=folder, bag="teach.bag", launch_file=session.packaged("launch", "teach.launch"),
+        launch_arguments=[f"seed:={seed}", "paused:=true"], topics=RECORDED,
+        links=LINKS | session.recorder_links(recording.SENSORS, "platform_sim"),
+        driver="platform_sim")
+    with lesson.running() as launch, contextlib.ExitStack() as stack:
+        # Imported here: rospy reads the environment that running() has set.
+        from prf_experiments.run.observer import Observer
+        observer = Observer()
+        stack.callback(observer.close)
+        recorder = stack.enter_context(lesson.recording())
+        lesson.wait_until_connected(launch, recorder)
+        observer.call("/platform_sim/start")
+        lesson.wait_for_driver(launch, recorder, observer.status)
+        lesson.close(launch, recorder)
+    lesson.progress.close()
+    return os.path.join(folder, "teach.bag")
+
+
+def teach_main(words):
+    parser = argparse.ArgumentParser(
+        prog="run_teach", description="Leads the simulated arm to the target by the hand and "
+        "writes the demonstration.")
+    parser.add_argument("out", help="demonstration file to write")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--folder", help="keeps teach.bag and the logs there")
+    options = parser.parse_args(words)
+
+    def action():
+        with contextlib.ExitStack() as stack:
+            folder = os.path.abspath(
+                options.folder or stack.enter_context(tempfile.TemporaryDirectory()))
+            os.makedirs(os.path.join(folder, "log"), exist_ok=True)
+            command = f"rosrun prf_experiments run_teach --seed {options.seed} OUT"
+            result = convert(teach(folder, options.seed), command)
+        demonstration.write(options.out, result)
+        print(f"{len(result.times)} poses over {result.times[-1]:.1f} s: {options.out}")
+        return 0
+    return session.guarded("run_teach", action)

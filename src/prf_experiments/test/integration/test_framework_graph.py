@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The framework's nodes hear what the data flow says, and never the ground truth."""
+import time
+import unittest
+
+import rosgraph
+import rostest
+
+from prf_experiments.record import recording
+from prf_experiments.run import connections
+
+NODES = ["/" + name for name in connections.FRAMEWORK_NODES]
+
+
+class FrameworkGraph(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.master = rosgraph.Master(connections.CALLER)
+        required = {link for link in connections.trial_links("nobody", simulated=False)
+                    if link[1] != "/nobody"}
+        end = time.monotonic() + 30.0
+        while connections.missing(cls.master, required) and time.monotonic() < end:
+            time.sleep(0.2)
+        cls.missing = connections.missing(cls.master, required)
+        cls.heard = connections.subscriptions(cls.master)
+
+    def test_every_link_of_the_data_flow_is_there(self):
+        self.assertEqual(self.missing, set())
+
+    def test_every_node_is_there(self):
+        for node in NODES:
+            self.assertIn(node, self.heard)
+
+    def test_runs_without_the_simulator_on_the_clock_of_the_robot(self):
+        self.assertIs(self.master.getParam("/use_sim_time"), False)
+        self.assertNotIn("/platform_sim", self.heard)
+
+    def test_planner_and_decision_take_the_same_part_of_the_skill_for_the_approach(self):
+        self.assertEqual(self.master.getParam("/decision/approach_length"),
+                         self.master.getParam("/skill_planner/approach_length"))
+
+    def test_no_node_hears_the_ground_truth(self):
+        truth = {"/" + topic for topic in recording.GROUND_TRUTH}
+        for node in NODES:
+            self.assertEqual(self.heard[node] & truth, set(), node)
+            self.assertFalse([topic for topic in self.heard[node] if "ground_truth" in topic])
+
+    def test_sensor_topics_are_heard_by_their_names(self):
+        for topic, nodes in connections.SENSOR_SUBSCRIBERS.items():
+            for node in nodes:
+                self.assertIn(topic, self.heard["/" + node])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("prf_experiments", "framework_graph", FrameworkGraph)

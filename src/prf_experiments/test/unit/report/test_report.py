@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import os
+import re
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
+import synthetic  # noqa: E402
+from prf_experiments import geometry  # noqa: E402
+from prf_experiments.judge import judge  # noqa: E402
+from prf_experiments.record import recording  # noqa: E402
+from prf_experiments.report import page, pictures, report  # noqa: E402
+from prf_experiments.teach import demonstration  # noqa: E402
+
+VOID = {"meta", "br", "hr", "img"}
+SKILL = demonstration.Demonstration(
+    "base", "hand", geometry.IDENTITY, 0.1 * np.arange(20),
+    np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20),
+               np.tile([0, 0, 0, 1.0], (20, 1))]))
+
+
+class Balance(HTMLParser):
+    """Collects elements that are not closed in order, and everything that is fetched."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.wrong, self.fetched = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in VOID:
+            self.open.append(tag)
+        self.fetched += [value for name, value in attributes
+                         if name in ("src", "href", "xlink:href") and not value.startswith("#")]
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+class Report(unittest.TestCase):
+    def write(self, data, verdict=None):
+        with tempfile.TemporaryDirectory() as folder:
+            bag, out = os.path.join(folder, "trial.bag"), os.path.join(folder, "report.html")
+            synthetic.write_bag(bag, data)
+            read = recording.read(bag)
+            content = {**(verdict or judge.judge(read)).as_json(), "command": "run <this> & that",
+                       "arguments": {"seed": 1}, "versions": {"python": "3"}, "wall_time_s": 4.2}
+            report.write(out, bag, read, content, SKILL)
+            with open(out, encoding="utf-8") as stream:
+                return stream.read()
+
+    def assert_sound(self, text):
+        parser = Balance()
+        parser.feed(text)
+        self.assertEqual((parser.open, parser.wrong, parser.fetched), ([], [], []))
+
+    def test_is_one_page_that_fetches_nothing(self):
+        data = synthetic.make_recording(3.0)
+        data.sights[10:20] = np.nan
+        data.contacts = [recording.Contact(int(data.ticks[150]), ("box_back", "camera_link"), 2.5)]
+        text = self.write(data)
+        self.assert_sound(text)
+        self.assertEqual(len(re.findall("<svg", text)), 4)
+        self.assertIn("run &lt;this&gt; &amp; that", text)
+        self.assertIn("partial success", text)
+        self.assertIn("box_back | camera_link", text)
+        for phase in ("FORWARD", "TRACKING", "DONE"):
+            self.assertIn(phase, text)
+
+    def test_draws_a_trial_whose_target_was_never_seen_or_forecast(self):
+        data = synthetic.make_recording(61.0, lateral=0.3, state="WAITING")
+        data.sights[:] = np.nan
+        data.forecasts.horizons = [np.array([])] * len(data.sight_stamps)
+        data.forecasts.positions = [np.empty((0, 3))] * len(data.sight_stamps)
+        text = self.write(data)
+        self.assert_sound(text)
+        self.assertIn("failure", text)
+
+    def test_says_why_there_is_no_evidence(self):
+        text = self.write(synthetic.make_recording(1.0), judge.invalid("the recorder <died>"))
+        self.assert_sound(text)
+        self.assertIn("no evidence: the recorder &lt;died&gt;", re.sub("<[^>]*>", "", text))
+
+    def test_shows_the_scene_and_the_parameters_of_the_nodes(self):
+        content = judge.invalid("cut").as_json()
+        text = page.whole("Trial", report.parts(content, None, [], "<p>a picture</p>",
+                                                "decision: {lead: <0.02>}"))
+        self.assert_sound(text)
+        self.assertIn("<h2>Scene</h2>\n<p>a picture</p>", text)
+        self.assertIn("decision: {lead: &lt;0.02&gt;}", text)
+
+    def test_key_frames_are_taken_at_the_moments_that_matter(self):
+        data = synthetic.make_recording(4.0)
+        pair = ("box", "camera_link")
+        data.contacts = [recording.Contact(int(data.ticks[row]), pair, force)
+                         for row, force in ((150, 2.0), (250, 7.5), (300, 3.0))]
+        self.assertEqual(pictures.moments(data, judge.judge(data).figures), [
+            (0.0, "the start"), (1.0, "reached"), (2.5, "largest contact, 7.5 N"),
+            (4.0, "the end")])
+
+    def test_is_the_same_text_for_the_same_trial(self):
+        data = synthetic.make_recording(1.0)
+        self.assertEqual(self.write(data), self.write(data))
+
+
+if __name__ == "__main__":
+    unittest.main()

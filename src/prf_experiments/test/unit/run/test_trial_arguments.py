@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from prf_experiments.run import arguments as args
+from prf_experiments.run import trial_arguments
+
+
+class TrialArguments(unittest.TestCase):
+    def values(self, *words):
+        return args.parse(words, trial_arguments.TRIAL)
+
+    def complete(self, *words):
+        return trial_arguments.complete(self.values(*words), words)
+
+    def test_a_name_says_what_makes_a_trial_and_nothing_else(self):
+        self.assertEqual(
+            trial_arguments.name(self.values("motion:=heavy", "seed:=7", "results:=/elsewhere")),
+            "motion-heavy_gait-stand_planner-elte_framework-true_seed-7")
+
+    def test_what_is_not_the_default_is_in_the_name_and_in_the_command(self):
+        values = self.values("decision:=forward", "demonstration:=/skills/wipe.csv")
+        self.assertTrue(trial_arguments.name(values).endswith(
+            "_seed-1_decision-forward_demonstration-wipe.csv"))
+        self.assertEqual(args.parse(trial_arguments.words(values), trial_arguments.TRIAL),
+                         self.values("decision:=forward", "demonstration:=/skills/wipe.csv"))
+
+    def test_a_motion_is_a_preset_or_a_file_that_exists(self):
+        with tempfile.NamedTemporaryFile(suffix=".csv") as file:
+            values = self.values(f"motion:={file.name}", f"body_motion:={file.name}")
+            self.assertEqual(values["motion"], file.name)
+            self.assertNotIn("/", trial_arguments.name(values))
+        for word in ("motion:=wild", "motion:=absent.yaml", "body_motion:=absent.csv"):
+            with self.assertRaises(args.ArgumentError):
+                self.values(word)
+
+    def test_the_floor_under_the_cart_does_not_move(self):
+        self.assertEqual(self.complete("scenario:=cart")["motion"], "none")
+        self.assertEqual(self.complete("scenario:=cart", "motion:=none")["motion"], "none")
+        self.assertEqual(self.complete()["motion"], "light")
+        with self.assertRaises(args.ArgumentError):
+            self.complete("scenario:=cart", "motion:=light")
+
+    def test_lists_are_parsed_value_by_value(self):
+        self.assertEqual(args.parse_lists(["seed:=3,5", "framework:=false"], trial_arguments.TRIAL),
+                         {"seed": [3, 5], "framework": [False]})
+        self.assertEqual(args.parse_lists(["framework:=off,on"], trial_arguments.TRIAL),
+                         {"framework": [False, True]})
+        for word, why in (("seed:=3,x", "invalid seed:=x"), ("seed:=3,3", "twice"),
+                          ("framework:=on,true", "twice"),
+                          ("seed:=", "invalid seed:="), ("speed:=1", "unknown"),
+                          ("seed", "name:=value")):
+            with self.assertRaises(args.ArgumentError) as caught:
+                args.parse_lists([word], trial_arguments.TRIAL)
+            self.assertIn(why, str(caught.exception))
+
+    def test_needs_no_ros(self):
+        code = ("import sys; import prf_experiments.run.trial_arguments; "
+                "sys.exit(any(name in sys.modules for name in ('rospy', 'rospkg', 'numpy')))")
+        self.assertEqual(subprocess.run([sys.executable, "-c", code], check=False).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

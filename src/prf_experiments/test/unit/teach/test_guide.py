@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import unittest
+
+import numpy as np
+
+from prf_experiments import geometry
+from prf_experiments.teach import guide
+
+PARAMETERS = dict(stand_off=0.3, run_in=0.25, settle_time=1.0, guide_time=10.0, stiffness=400.0,
+                  damping=40.0, angular_stiffness=30.0, angular_damping=3.0)
+CAMERA_IN_HAND = np.array([0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
+# Seen from the front along +x: tag x to the right (-y), y up (+z), z toward the viewer (-x).
+TAG = np.array([0.8, 0.0, 0.65, 0.5, -0.5, -0.5, 0.5])
+HAND = np.array([0.4, -0.22, 0.40, 0.5, 0.5, 0.5, 0.5])
+
+
+def make(**changes):
+    return guide.Guide(guide.GuideParameters(**{**PARAMETERS, **changes}), 5.0, HAND,
+                       geometry.compose(HAND, CAMERA_IN_HAND), TAG)
+
+
+class Guide(unittest.TestCase):
+    def test_tag_axes_are_those_of_the_test(self):
+        axes = [geometry.rotate(TAG[3:], axis) for axis in np.eye(3)]
+        np.testing.assert_allclose(axes, [[0, -1, 0], [0, 0, 1], [-1, 0, 0]], atol=1e-12)
+
+    def test_ends_with_the_camera_at_the_stand_off_looking_at_the_tag(self):
+        end = make().pose(5.0 + 1.0 + 10.0)
+        tag_in_camera = geometry.compose(
+            geometry.inverse(geometry.compose(end, CAMERA_IN_HAND)), TAG)
+        np.testing.assert_allclose(tag_in_camera[:3], [0.0, 0.0, 0.3], atol=1e-12)
+
+    def test_starts_at_the_hand_and_rests_there(self):
+        for stamp in (5.0, 6.0):
+            np.testing.assert_allclose(make().pose(stamp), HAND, atol=1e-12)
+
+    def test_starts_and_stops_gently(self):
+        leader, step = make(), 1e-3
+        for stamp in (6.0, 16.0):
+            before, at, after = (leader.pose(stamp + d)[:3] for d in (-step, 0.0, step))
+            self.assertLess(np.linalg.norm(after - before) / (2 * step), 1e-6)
+            self.assertLess(np.linalg.norm(after - 2 * at + before) / step**2, 1e-2)
+
+    def test_comes_in_along_the_normal_of_the_tag(self):
+        leader = make()
+        for fraction in np.linspace(0.0, 1.0, 200):
+            pose = leader.pose(6.0 + 10.0 * fraction)
+            before_tag = geometry.compose(geometry.inverse(TAG), pose)
+            end = geometry.compose(geometry.inverse(TAG), leader.goal)
+            if before_tag[2] < end[2] + 0.05:
+                self.assertLess(np.linalg.norm(before_tag[:2] - end[:2]), 0.03)
+
+    def test_pulls_toward_the_guide(self):
+        leader, aside = make(), HAND + [0.01, 0.0, -0.02, 0.0, 0.0, 0.0, 0.0]
+        force, torque = leader.wrench(5.0, aside)
+        np.testing.assert_allclose(force, [-4.0, 0.0, 8.0], atol=1e-9)
+        np.testing.assert_allclose(torque, np.zeros(3), atol=1e-9)
+
+    def test_turns_toward_the_guide(self):
+        turned = HAND.copy()
+        turned[3:] = geometry.multiply(geometry.exp([0.0, 0.0, 0.1]), HAND[3:])
+        np.testing.assert_allclose(make().wrench(5.0, turned)[1], [0.0, 0.0, -3.0], atol=1e-9)
+
+    def test_brakes_a_moving_hand(self):
+        leader = make()
+        leader.wrench(5.0, HAND - [0.001, 0, 0, 0, 0, 0, 0])
+        np.testing.assert_allclose(leader.wrench(5.01, HAND)[0], [-4.0, 0.0, 0.0], atol=1e-9)
+
+    def test_refuses_bad_parameters(self):
+        for name, value in (("stiffness", 0.0), ("guide_time", 0.0), ("damping", -1.0),
+                            ("run_in", float("nan")), ("stand_off", "near"),
+                            ("settle_time", True)):
+            with self.assertRaisesRegex(ValueError, name):
+                make(**{name: value})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import os
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
+import synthetic  # noqa: E402
+from prf_experiments import geometry  # noqa: E402
+from prf_experiments.teach import demonstration, teaching  # noqa: E402
+
+UPRIGHT = [0.5, 0.5, 0.5, 0.5]
+
+
+def led_hand(times, start, end):
+    """Hand that rests, goes 0.3 m along x at even pace between two times, and rests."""
+    x = 0.3 * np.clip((times - start) / (end - start), 0.0, 1.0)
+    return np.hstack([np.column_stack([0.3 + x, 0.0 * x, 0.5 + 0.0 * x]),
+                      np.tile(UPRIGHT, (len(times), 1))])
+
+
+class Teaching(unittest.TestCase):
+    def convert(self, data, hand):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "teach.bag")
+            synthetic.write_bag(path, data, hand=hand)
+            return teaching.convert(path, "test")
+
+    def test_keeps_the_moving_part_at_twenty_hertz(self):
+        data = synthetic.make_recording(10.0)
+        hand = led_hand(data.seconds(data.ticks), 2.0, 8.0)
+        result = self.convert(data, hand)
+        self.assertEqual(result.times[0], 0.0)
+        self.assertAlmostEqual(result.times[-1], 6.0, delta=0.05)
+        np.testing.assert_allclose(np.diff(result.times), 0.05, atol=0.001)
+        np.testing.assert_allclose(result.poses[0, :3], hand[0, :3], atol=1e-3)
+        np.testing.assert_allclose(result.poses[-1, :3], hand[-1, :3], atol=1e-3)
+
+    def test_places_the_target_by_detections_and_tf(self):
+        data = synthetic.make_recording(5.0)
+        hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
+        target = self.convert(data, hand).target_pose
+        camera = geometry.compose(hand[-1], [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
+        np.testing.assert_allclose(target[:3], geometry.compose(camera, data.sights[-1])[:3],
+                                   atol=1e-9)
+
+    def test_refuses_a_hand_that_never_moves(self):
+        data = synthetic.make_recording(2.0)
+        hand = led_hand(data.seconds(data.ticks), 5.0, 6.0)
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "never moves"):
+            self.convert(data, hand)
+
+    def test_refuses_a_tag_unseen_at_the_end(self):
+        data = synthetic.make_recording(3.0)
+        data.sights[20:] = np.nan
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "not seen"):
+            self.convert(data, led_hand(data.seconds(data.ticks), 1.0, 2.0))
+
+    def test_resampled_quaternions_do_not_change_sign(self):
+        times = np.linspace(0.0, 1.0, 11)
+        turned = [geometry.exp([0.0, 0.0, 0.1 * row]) for row in range(11)]
+        poses = np.hstack([np.zeros((11, 3)), turned])
+        poses[5:, 3:] *= -1.0
+        quaternions = teaching.resample(times, poses, 50.0)[1][:, 3:]
+        self.assertTrue(np.all(np.sum(quaternions[1:] * quaternions[:-1], axis=1) > 0.9))
+
+
+if __name__ == "__main__":
+    unittest.main()
