@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of the built model: tf agrees with the kinematics library, message by message.
+// Frames of the built model: tf agrees with KDL, message by message.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <string>
+#include <vector>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
+#include "hand_of_urdf.hpp"
 
 namespace jaco_v60_description {
 namespace {
 
 constexpr double kWait = 15.0;  // [s], for processes to start and messages to arrive
 
-sensor_msgs::JointState joint_states(const JointVector& q, const ros::Time& stamp) {
+sensor_msgs::JointState joint_states(const std::vector<double>& q, const ros::Time& stamp) {
   sensor_msgs::JointState message;
   message.header.stamp = stamp;
-  for (int i = 0; i < 7; ++i) {
-    message.name.push_back("j2s7s300_joint_" + std::to_string(i + 1));
-    message.position.push_back(q[i]);
-  }
+  message.name = arm_joints();
+  message.position = q;
   for (const char* leg : {"fl", "fr", "rl", "rr"}) {
     for (const char* joint : {"_abduction", "_hip", "_knee"}) {
       message.name.push_back(std::string(leg) + joint);
@@ -50,16 +49,16 @@ class Description : public testing::Test {
     return false;
   }
 
-  void expect_hand(const JointVector& q, const ros::Time& stamp) const {
+  void expect_hand(const std::vector<double>& q, const ros::Time& stamp) const {
     const auto hand =
         buffer_.lookupTransform("j2s7s300_link_base", "j2s7s300_end_effector", stamp).transform;
-    const Eigen::Vector3d expected = forward(q).translation();
+    const Eigen::Vector3d expected = hand_of_urdf(q).translation();
     ASSERT_NEAR(hand.translation.x, expected.x(), 1e-9);
     ASSERT_NEAR(hand.translation.y, expected.y(), 1e-9);
     ASSERT_NEAR(hand.translation.z, expected.z(), 1e-9);
   }
 
-  const JointVector ready_ = JointVector::Constant(2.0);
+  const std::vector<double> ready_ = std::vector<double>(7, 2.0);
   ros::Time connected_at_;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
@@ -75,7 +74,7 @@ TEST_F(Description, PublishesTheHandOnceConnected) {
 
 TEST_F(Description, PublishesTheHandOfEveryJointState) {
   ASSERT_TRUE(connect());
-  JointVector q = ready_;
+  std::vector<double> q = ready_;
   for (int tick = 1; tick <= 50; ++tick) {
     const ros::Time stamp = connected_at_ + ros::Duration(0.01 * tick);
     q[0] += 0.02;

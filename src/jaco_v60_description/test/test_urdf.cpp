@@ -10,8 +10,6 @@
 #include <map>
 #include <string>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
-
 namespace jaco_v60_description {
 namespace {
 
@@ -83,23 +81,6 @@ TEST_F(Urdf, HasAShapeWhereverThereIsMass) {
   for (const auto& [name, link] : model_->links_) {
     EXPECT_EQ(bool(link->inertial), bool(link->collision)) << name;
     EXPECT_EQ(bool(link->visual), bool(link->collision)) << name;
-  }
-}
-
-TEST_F(Urdf, HasTheLimitsOfTheKinematics) {
-  const JointLimits& limits = jaco_joint_limits();
-  for (int i = 0; i < 7; ++i) {
-    const auto joint = model_->getJoint("j2s7s300_joint_" + std::to_string(i + 1));
-    ASSERT_TRUE(joint && joint->limits);
-    EXPECT_NEAR(joint->limits->velocity, limits.velocity[i], 1e-12);
-    EXPECT_NEAR(joint->limits->effort, limits.effort[i], 1e-12);
-    if (std::isinf(limits.upper[i])) {
-      EXPECT_EQ(joint->type, urdf::Joint::CONTINUOUS);
-    } else {
-      EXPECT_EQ(joint->type, urdf::Joint::REVOLUTE);
-      EXPECT_NEAR(joint->limits->lower, limits.lower[i], 1e-12);
-      EXPECT_NEAR(joint->limits->upper, limits.upper[i], 1e-12);
-    }
   }
 }
 

@@ -16,7 +16,7 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::forward;
+using jaco_kinematics::forward;
 
 struct Options {
   double amplitude = 0.05;  // m, along y of the arm's base
@@ -75,7 +75,7 @@ struct Phasor {
 
 bool keeps_limits(const MotionState& before, const MotionState& after, const Options& options) {
   constexpr double kRounding = 1e-9;
-  const auto& limits = jaco_v60_description::jaco_joint_limits();
+  const auto& limits = jaco_kinematics::jaco_joint_limits();
   const JointVector change = (after.velocity - before.velocity) / ServoArm::kPeriod;
   return ((after.velocity.cwiseAbs() - options.velocity_scale * limits.velocity).maxCoeff() <=
           kRounding) &&

@@ -102,7 +102,7 @@ std::string ArmController::restart_reason(const JoinedTick& tick, double dt) con
     text << "joint_states leapt by " << dt << " s, bound " << params_.max_wait << " s";
     return text.str();
   }
-  const auto& limits = jaco_v60_description::jaco_joint_limits();
+  const auto& limits = jaco_kinematics::jaco_joint_limits();
   for (int i = 0; i < 7; ++i) {
     const double error = tracking_error((*tick.joints.position)[i], follower_.state().position[i],
                                         std::isinf(limits.upper[i]));
@@ -129,7 +129,7 @@ void ArmController::serve(const JoinedTick& tick, double dt, Answer& answer) {
     wanted = tick.setpoint->pose.hand_in_base;
   } else {
     follower_.hold(dt);
-    wanted = jaco_v60_description::forward(follower_.state().position);
+    wanted = jaco_kinematics::forward(follower_.state().position);
     if (!tick.joints.position) {
       answer.reason = tick.joints.fault;
     } else if (!tick.setpoint) {
@@ -142,7 +142,7 @@ void ArmController::serve(const JoinedTick& tick, double dt, Answer& answer) {
     }
   }
   const JointVector hand = tick.joints.position.value_or(follower_.state().position);
-  const auto error = pose_error(jaco_v60_description::forward(hand), wanted);
+  const auto error = pose_error(jaco_kinematics::forward(hand), wanted);
   answer.position_error = error.head<3>().norm();
   answer.orientation_error = error.tail<3>().norm();
 }

@@ -33,7 +33,7 @@ JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const Veloci
 JointVector hand_velocity(const HandRequest& request, const VelocityRange& range) {
   Twist weight;
   weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(request.orientation_weight);
-  const jaco_v60_description::Jacobian A = weight.asDiagonal() * request.jacobian;
+  const jaco_kinematics::Jacobian A = weight.asDiagonal() * request.jacobian;
   const Matrix7 H = A.transpose() * A + kPostureWeight * Matrix7::Identity();
   const JointVector g = A.transpose() * weight.cwiseProduct(request.twist) +
                         kPostureWeight * request.posture_velocity;

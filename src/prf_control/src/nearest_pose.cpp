@@ -11,7 +11,7 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::JointVector;
+using jaco_kinematics::JointVector;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
 // Bounds the work of one call; a search that has not ended goes on from there in the next tick.
@@ -29,11 +29,11 @@ struct Problem {
 // f = 1/2 e^T W^2 e with e = pose_error(T(q), T). A rotation vector is mapped to itself by the
 // inverse left Jacobian of SO(3), so the gradient is -J^T W^2 e exactly.
 double cost(const JointVector& q, const Problem& problem, JointVector* gradient) {
-  const ErrorVector error = pose_error(jaco_v60_description::forward(q), problem.hand_in_base)
-                                .cwiseProduct(problem.weight);
+  const ErrorVector error =
+      pose_error(jaco_kinematics::forward(q), problem.hand_in_base).cwiseProduct(problem.weight);
   if (gradient != nullptr) {
-    *gradient = -kCostScale * jaco_v60_description::jacobian(q).transpose() *
-                error.cwiseProduct(problem.weight);
+    *gradient =
+        -kCostScale * jaco_kinematics::jacobian(q).transpose() * error.cwiseProduct(problem.weight);
   }
   return 0.5 * kCostScale * error.squaredNorm();
 }
@@ -71,7 +71,7 @@ JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVecto
     throw std::invalid_argument("orientation_weight = " + std::to_string(orientation_weight) +
                                 " m/rad, must be finite and > 0");
   }
-  const auto& limits = jaco_v60_description::jaco_joint_limits();
+  const auto& limits = jaco_kinematics::jaco_joint_limits();
   Problem problem;
   problem.hand_in_base = hand_in_base;
   problem.weight << 1.0, 1.0, 1.0, orientation_weight, orientation_weight, orientation_weight;

@@ -13,9 +13,9 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::IkOptions;
-using jaco_v60_description::IkResult;
-using jaco_v60_description::IkStatus;
+using jaco_kinematics::IkOptions;
+using jaco_kinematics::IkResult;
+using jaco_kinematics::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kArrived = 0.02;  // [rad] of every joint: the change of branch is over
@@ -34,7 +34,7 @@ void check(const char* name, double value, double bound, const char* unit) {
 }
 
 MotionLimits limits_of(const FollowerParams& params) {
-  const auto& joints = jaco_v60_description::jaco_joint_limits();
+  const auto& joints = jaco_kinematics::jaco_joint_limits();
   MotionLimits limits{joints.lower, joints.upper, params.velocity_scale * joints.velocity,
                       JointVector::Constant(params.acceleration)};
   limits.validate();
@@ -114,7 +114,7 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
     step.motion = hand_step(setpoint, goal.motion, dt);
   }
   const ErrorVector deviation =
-      pose_error(jaco_v60_description::forward(step.motion.state.position), setpoint.hand_in_base);
+      pose_error(jaco_kinematics::forward(step.motion.state.position), setpoint.hand_in_base);
   step.position_deviation = deviation.head<3>().norm();
   step.orientation_deviation = deviation.tail<3>().norm();
 
@@ -135,7 +135,7 @@ FollowerStep SetpointFollower::hold(double dt) {
 LimitedStep SetpointFollower::hand_step(const PoseSetpoint& setpoint, const MotionState& goal,
                                         double dt) const {
   const JointVector& q = state().position;
-  const ErrorVector error = pose_error(jaco_v60_description::forward(q), moved_back(setpoint, dt));
+  const ErrorVector error = pose_error(jaco_kinematics::forward(q), moved_back(setpoint, dt));
   ErrorVector twist;
   twist << setpoint.linear_velocity, setpoint.angular_velocity;
   const double size =
@@ -144,7 +144,7 @@ LimitedStep SetpointFollower::hand_step(const PoseSetpoint& setpoint, const Moti
   const JointVector posture_velocity =
       goal.velocity + kPostureRate * (goal.position - goal.velocity * dt - q);
   const JointVector velocity =
-      hand_velocity({jaco_v60_description::jacobian(q), twist + rate * error,
+      hand_velocity({jaco_kinematics::jacobian(q), twist + rate * error,
                      posture_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
                      params_.orientation_weight},
                     allowed_velocities(state(), dt, limits_));
@@ -173,9 +173,9 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
 
   // An arm that lags behind its goal is better served by the solution nearest to where it is.
   const IkOptions options = posture_options(dt);
-  IkResult solution = jaco_v60_description::inverse(pose, state().position, options);
+  IkResult solution = jaco_kinematics::inverse(pose, state().position, options);
   if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
-    solution = jaco_v60_description::inverse(pose, reference, options);
+    solution = jaco_kinematics::inverse(pose, reference, options);
   }
   const bool solved = solution.status == IkStatus::kSolved;
   const JointVector q =
@@ -216,7 +216,7 @@ JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const 
   IkOptions nearest;
   nearest.limit_weight = 0.0;
   nearest.posture_step = 0.0;
-  const IkResult before = jaco_v60_description::inverse(moved_back(setpoint, dt), goal, nearest);
+  const IkResult before = jaco_kinematics::inverse(moved_back(setpoint, dt), goal, nearest);
   const JointVector step = goal - before.q;
   const bool continuous =
       before.status == IkStatus::kSolved && step.cwiseAbs().maxCoeff() <= params_.max_joint_step;
@@ -230,9 +230,8 @@ JointVector SetpointFollower::damped_step(const Eigen::Isometry3d& hand_in_base,
   ErrorVector weight;
   weight << Eigen::Vector3d::Constant(1.0 / params_.orientation_weight), Eigen::Vector3d::Ones();
   const ErrorVector error =
-      pose_error(jaco_v60_description::forward(from), hand_in_base).cwiseProduct(weight);
-  const jaco_v60_description::Jacobian a =
-      weight.asDiagonal() * jaco_v60_description::jacobian(from);
+      pose_error(jaco_kinematics::forward(from), hand_in_base).cwiseProduct(weight);
+  const jaco_kinematics::Jacobian a = weight.asDiagonal() * jaco_kinematics::jacobian(from);
   Eigen::Matrix<double, 6, 6> normal = a * a.transpose();
   normal.diagonal().array() += params_.damping * params_.damping;
   const JointVector dq = a.transpose() * normal.ldlt().solve(error);
@@ -244,7 +243,7 @@ JointVector SetpointFollower::damped_step(const Eigen::Isometry3d& hand_in_base,
 
 bool SetpointFollower::is_far(const Eigen::Isometry3d& hand_in_base) const {
   const Eigen::Isometry3d last =
-      last_pose_ ? *last_pose_ : jaco_v60_description::forward(state().position);
+      last_pose_ ? *last_pose_ : jaco_kinematics::forward(state().position);
   const ErrorVector error = pose_error(last, hand_in_base);
   return error.head<3>().norm() > params_.far_position ||
          error.tail<3>().norm() > params_.far_orientation;

@@ -18,7 +18,7 @@ inline JointVector home() {
 
 // Every command: finite, within position, velocity and acceleration limits.
 inline void expect_within_limits(const MotionState& before, const MotionState& after, double dt) {
-  const auto& joints = jaco_v60_description::jaco_joint_limits();
+  const auto& joints = jaco_kinematics::jaco_joint_limits();
   ASSERT_TRUE(after.position.allFinite());
   ASSERT_TRUE(after.velocity.allFinite());
   ASSERT_GE((after.position - joints.lower).minCoeff(), 0.0);

@@ -12,7 +12,7 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::forward;
+using jaco_kinematics::forward;
 
 constexpr std::int64_t kTick = 10'000'000;
 constexpr double kDt = 0.01;

@@ -12,8 +12,8 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::forward;
-using jaco_v60_description::jaco_joint_limits;
+using jaco_kinematics::forward;
+using jaco_kinematics::jaco_joint_limits;
 
 TEST(BranchChange, IsRefusedAtFirstAndTheGoalCreepsInstead) {
   FollowerParams strict = params();
@@ -43,8 +43,8 @@ std::vector<std::pair<JointVector, Eigen::Isometry3d>> poses_of_other_branches()
     for (int i : {1, 3, 5}) q[i] = M_PI + 0.4 * q[i];
     q[5] = joints.upper[5];
     const JointVector beyond = q + 0.08 * JointVector::Unit(5);
-    const auto solution = jaco_v60_description::inverse(forward(beyond), q);
-    const bool solved = solution.status == jaco_v60_description::IkStatus::kSolved;
+    const auto solution = jaco_kinematics::inverse(forward(beyond), q);
+    const bool solved = solution.status == jaco_kinematics::IkStatus::kSolved;
     if (solved && (solution.q - q).cwiseAbs().maxCoeff() > 1.0) {
       found.push_back({q, forward(beyond)});
     }

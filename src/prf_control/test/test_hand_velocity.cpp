@@ -33,7 +33,7 @@ TEST(HandVelocity, MovesHandAndPostureAsWantedWhereNothingBinds) {
   std::mt19937 random(3);
   for (int i = 0; i < 100; ++i) {
     const JointVector wanted = random_joints(random, 0.5);
-    const auto J = jaco_v60_description::jacobian(home());
+    const auto J = jaco_kinematics::jacobian(home());
     const JointVector v = hand_velocity({J, J * wanted, wanted, kWeight}, range_of(1.0));
     EXPECT_LE((v - wanted).norm(), 1e-8);
   }
@@ -43,7 +43,7 @@ TEST(HandVelocity, IsTheMinimumWithinTheRange) {
   std::mt19937 random(7);
   int at_bounds = 0;
   for (int i = 0; i < 300; ++i) {
-    const HandRequest request{jaco_v60_description::jacobian(home() + random_joints(random, 0.3)),
+    const HandRequest request{jaco_kinematics::jacobian(home() + random_joints(random, 0.3)),
                               Twist::Random(), random_joints(random, 1.0), kWeight};
     const JointVector middle = random_joints(random, 0.3);
     const VelocityRange range{middle.array() - 0.2, middle.array() + 0.2};
@@ -63,7 +63,7 @@ TEST(HandVelocity, IsTheMinimumWithinTheRange) {
 }
 
 TEST(HandVelocity, LetsTheOtherJointsMakeUpForOneAtItsLimit) {
-  const auto J = jaco_v60_description::jacobian(home());
+  const auto J = jaco_kinematics::jacobian(home());
   const JointVector wanted = (JointVector() << 1.0, 0.1, 0.2, 0.1, -0.2, 0.1, 0.1).finished();
   VelocityRange range = range_of(0.8);
   range.upper[0] = 0.5;

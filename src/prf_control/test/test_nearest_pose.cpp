@@ -10,9 +10,9 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::forward;
-using jaco_v60_description::jaco_joint_limits;
-using jaco_v60_description::JointVector;
+using jaco_kinematics::forward;
+using jaco_kinematics::jaco_joint_limits;
+using jaco_kinematics::JointVector;
 
 constexpr double kWeight = 0.2;
 
@@ -88,7 +88,7 @@ TEST(NearestPose, IsStationaryUnlessAJointLimitHoldsIt) {
     expect_within_limits(found);
     Eigen::Matrix<double, 6, 1> error = pose_error(forward(found), pose);
     error.tail<3>() *= kWeight * kWeight;
-    const JointVector slope = -jaco_v60_description::jacobian(found).transpose() * error;
+    const JointVector slope = -jaco_kinematics::jacobian(found).transpose() * error;
     for (int j = 0; j < 7; ++j) {
       const bool at_lower = found[j] - jaco_joint_limits().lower[j] < 1e-9;
       const bool at_upper = jaco_joint_limits().upper[j] - found[j] < 1e-9;

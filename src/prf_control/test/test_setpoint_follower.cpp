@@ -15,8 +15,8 @@
 namespace prf_control {
 namespace {
 
-using jaco_v60_description::forward;
-using jaco_v60_description::jaco_joint_limits;
+using jaco_kinematics::forward;
+using jaco_kinematics::jaco_joint_limits;
 
 using Twist = Eigen::Matrix<double, 6, 1>;
 
@@ -83,7 +83,7 @@ TEST(SetpointFollower, CommandsTheVelocityOfTheSetpoint) {
     const PoseSetpoint setpoint = swaying(kDt * i, 0.05, 2.4);
     const MotionState command = follower.follow(setpoint, kDt).motion.state;
     if (i < 150) continue;
-    const Twist twist = jaco_v60_description::jacobian(command.position) * command.velocity;
+    const Twist twist = jaco_kinematics::jacobian(command.position) * command.velocity;
     ASSERT_LE((twist.head<3>() - setpoint.linear_velocity).norm(), 3e-3);
     ASSERT_LE((twist.tail<3>() - setpoint.angular_velocity).norm(), 3e-3);
   }
@@ -129,7 +129,7 @@ TEST(SetpointFollower, GoesToAFarSetpointStraightInJointSpaceAndStops) {
   EXPECT_EQ(step.goal, GoalKind::kExact);
   EXPECT_LE(step.position_deviation, 1e-8);
   const Twist twist =
-      jaco_v60_description::jacobian(step.motion.state.position) * step.motion.state.velocity;
+      jaco_kinematics::jacobian(step.motion.state.position) * step.motion.state.velocity;
   EXPECT_LE(twist.norm(), 1e-3);
   EXPECT_LE(step.motion.state.velocity.norm(), kPostureSpeed + 1e-6);
   const JointVector way = path.back() - path.front();
@@ -181,8 +181,8 @@ TEST(SetpointFollower, PassesSingularPosturesWithoutAJump) {
     PoseSetpoint setpoint;
     setpoint.hand_in_base = random_pose(random, 0.45);
     setpoint.linear_velocity = random_vector(random, 0.15);
-    const auto first = jaco_v60_description::inverse(setpoint.hand_in_base, home());
-    if (first.status != jaco_v60_description::IkStatus::kSolved) continue;
+    const auto first = jaco_kinematics::inverse(setpoint.hand_in_base, home());
+    if (first.status != jaco_kinematics::IkStatus::kSolved) continue;
     SetpointFollower follower(params());
     follower.start(first.q);
     for (int i = 0; i < 400; ++i) {
@@ -210,7 +210,7 @@ TEST(SetpointFollower, PassesTheShoulderSingularityExactly) {
     q[1] = M_PI - 0.5 + std::min(1.0, 0.2 * kDt * i);
     PoseSetpoint setpoint;
     setpoint.hand_in_base = forward(q);
-    const Twist twist = jaco_v60_description::jacobian(q).col(1) * (i < 500 ? 0.2 : 0.0);
+    const Twist twist = jaco_kinematics::jacobian(q).col(1) * (i < 500 ? 0.2 : 0.0);
     setpoint.linear_velocity = twist.head<3>();
     setpoint.angular_velocity = twist.tail<3>();
     const FollowerStep step = follower.follow(setpoint, kDt);

@@ -12,7 +12,7 @@
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
 #include <algorithm>
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -64,7 +64,7 @@ inline std::optional<int> arm_joint(const std::string& name) {
 
 // The measured hand; none when a joint of the arm is missing or not finite.
 inline std::optional<Pose> hand_of(const sensor_msgs::JointState& joints) {
-  jaco_v60_description::JointVector q;
+  jaco_kinematics::JointVector q;
   int found = 0;
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
     const auto joint = arm_joint(joints.name[i]);
@@ -73,7 +73,7 @@ inline std::optional<Pose> hand_of(const sensor_msgs::JointState& joints) {
     ++found;
   }
   if (found != 7 || !q.allFinite()) return std::nullopt;
-  const Eigen::Isometry3d hand = jaco_v60_description::forward(q);
+  const Eigen::Isometry3d hand = jaco_kinematics::forward(q);
   return Pose{hand.translation(), Eigen::Quaterniond(hand.linear()).normalized()};
 }
 

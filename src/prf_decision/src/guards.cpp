@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/guards.hpp"
 
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <stdexcept>
 
 #include "text.hpp"
@@ -70,7 +70,7 @@ std::optional<Objection> object_to_goal(const GuardParameters& guards, const Pos
   }
   const Eigen::Isometry3d pose =
       Eigen::Translation3d(hand_goal.position) * hand_goal.orientation.normalized();
-  if (jaco_v60_description::any_inverse(pose).status == jaco_v60_description::IkStatus::kSolved) {
+  if (jaco_kinematics::any_inverse(pose).status == jaco_kinematics::IkStatus::kSolved) {
     return std::nullopt;
   }
   return Objection{Event::kHazard, "no joint position within limits gives the goal"};

@@ -10,7 +10,7 @@
 // Mansard and Wieber 2014.)
 #pragma once
 
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 
 #include "prf_control/joint_motion.hpp"
 
@@ -23,10 +23,10 @@ using Twist = Eigen::Matrix<double, 6, 1>;  // linear [m/s], then angular [rad/s
 inline constexpr double kPostureWeight = 0.01;
 
 struct HandRequest {
-  jaco_v60_description::Jacobian jacobian;  // J, at the joints as they are
-  Twist twist;                              // x
-  JointVector posture_velocity;             // v_p [rad/s], toward the joints that are wanted
-  double orientation_weight = 0.0;          // w [m/rad], > 0
+  jaco_kinematics::Jacobian jacobian;  // J, at the joints as they are
+  Twist twist;                         // x
+  JointVector posture_velocity;        // v_p [rad/s], toward the joints that are wanted
+  double orientation_weight = 0.0;     // w [m/rad], > 0
 };
 
 // The one minimum, to 1e-9 rad/s unless the Jacobian is worse conditioned than that.

@@ -9,11 +9,11 @@
 // Units: radians, seconds. std::invalid_argument for non-finite input or dt <= 0.
 #pragma once
 
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 
 namespace prf_control {
 
-using jaco_v60_description::JointVector;
+using jaco_kinematics::JointVector;
 
 struct MotionLimits {
   JointVector lower;         // [rad], -infinity where the joint is continuous

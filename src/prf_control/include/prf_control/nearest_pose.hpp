@@ -7,7 +7,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 
 namespace prf_control {
 
@@ -15,8 +15,8 @@ namespace prf_control {
 Eigen::Matrix<double, 6, 1> pose_error(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
 
 // `orientation_weight` [m/rad]: how many metres one radian is worth, > 0.
-jaco_v60_description::JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base,
-                                               const jaco_v60_description::JointVector& start,
-                                               double orientation_weight);
+jaco_kinematics::JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base,
+                                          const jaco_kinematics::JointVector& start,
+                                          double orientation_weight);
 
 }  // namespace prf_control

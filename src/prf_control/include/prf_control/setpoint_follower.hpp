@@ -87,7 +87,7 @@ class SetpointFollower {
  private:
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
-  jaco_v60_description::IkOptions posture_options(double dt) const;
+  jaco_kinematics::IkOptions posture_options(double dt) const;
   void forget_set_points();
   LimitedStep hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;

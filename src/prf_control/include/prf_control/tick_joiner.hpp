@@ -12,7 +12,7 @@
 
 #include <cstdint>
 #include <deque>
-#include <jaco_v60_description/jaco_kinematics.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <map>
 #include <optional>
 #include <string>

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
+#include "jaco_kinematics/jaco_kinematics.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 // Uniform within limits, a full turn for the continuous joints.
 inline JointVector random_joints(std::mt19937* generator) {
@@ -35,4 +35,4 @@ inline Eigen::Isometry3d stand_off_pose() {
   return pose;
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

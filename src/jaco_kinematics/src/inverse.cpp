@@ -18,7 +18,7 @@
 #include "closed_form.hpp"
 #include "pose_step.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 namespace {
 
@@ -296,4 +296,4 @@ IkResult any_inverse(const Eigen::Isometry3d& pose) {
   return result_of(IkStatus::kNoSolutionWithinLimits, straight, target);
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -6,7 +6,7 @@
 
 #include "geometry.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 constexpr int kBranches = 8;
 inline int shoulder_of(int branch) { return branch / 4; }
@@ -34,4 +34,4 @@ bool polish(const Eigen::Isometry3d& pose, JointVector* q);
 // Continuous joints to (-pi, pi], the others to [0, 2 pi).
 JointVector normalized_angles(const JointVector& q);
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -8,7 +8,7 @@
 #include "arm_angle.hpp"
 #include "pose_step.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, doub
   return solutions;
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -8,7 +8,7 @@
 
 #include "random_joints.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 namespace {
 
 TEST(PoseStep, IsTheShortestAndTheSelfMotionLeavesTheHand) {
@@ -30,4 +30,4 @@ TEST(PoseStep, IsTheShortestAndTheSelfMotionLeavesTheHand) {
 }
 
 }  // namespace
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -9,7 +9,7 @@
 
 #include "geometry.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 // Orthonormal right-handed: `axis` from S to W, `zero` the direction of arm angle 0.
 struct ArmAxes {
@@ -52,4 +52,4 @@ std::vector<Arc> feasible_arcs(const ElbowCircle& circle, int elbow_branch,
 
 double arm_angle(const Frames& frames);
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

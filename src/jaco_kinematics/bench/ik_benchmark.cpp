@@ -21,7 +21,7 @@
 #include "benchmark_table.hpp"
 #include "random_joints.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 namespace {
 
 constexpr double kPrecision = 1e-6;  // that KDL is asked for, and every answer must have; m, rad
@@ -153,10 +153,10 @@ std::vector<Row> run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics
 
 int main(int argc, char** argv) {
-  using namespace jaco_v60_description;
+  using namespace jaco_kinematics;
   try {
     const Options options = read_options(argc, argv);
     if (options.help) return 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 namespace {
 
@@ -76,4 +76,4 @@ PoseStep pose_step(const Frames& frames, const Eigen::Matrix<double, 6, 1>& diff
   return step ? *step : damped_step(frames, difference);
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
+#include "jaco_kinematics/jaco_kinematics.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -60,4 +60,4 @@ bool within_limits(const JointVector& q);
 Eigen::Isometry3d checked_pose(const Eigen::Isometry3d& pose);
 void check_finite(const JointVector& values, const char* name);
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

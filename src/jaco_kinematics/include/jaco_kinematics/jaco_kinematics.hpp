@@ -16,7 +16,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 using JointVector = Eigen::Matrix<double, 7, 1>;
 using Jacobian = Eigen::Matrix<double, 6, 7>;
@@ -85,4 +85,4 @@ struct IkResult {
 // feasible arc if it is there. The fastest; not continuous from pose to pose.
 [[nodiscard]] IkResult any_inverse(const Eigen::Isometry3d& pose);
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

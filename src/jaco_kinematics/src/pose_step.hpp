@@ -4,7 +4,7 @@
 
 #include "geometry.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 struct PoseStep {
   JointVector least;        // the shortest dq with J dq = difference
@@ -14,4 +14,4 @@ struct PoseStep {
 // `difference` as pose_difference() gives it, from the frames' end effector.
 PoseStep pose_step(const Frames& frames, const Eigen::Matrix<double, 6, 1>& difference);
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

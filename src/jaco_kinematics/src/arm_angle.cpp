@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 namespace {
 
@@ -115,4 +115,4 @@ double arm_angle(const JointVector& q) {
   return arm_angle(link_frames(q));
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

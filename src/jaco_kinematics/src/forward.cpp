@@ -7,7 +7,7 @@
 
 #include "geometry.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 namespace {
 
@@ -174,4 +174,4 @@ Jacobian jacobian(const JointVector& q) {
   return jacobian(link_frames(q));
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -7,11 +8,12 @@
 #include <kdl_parser/kdl_parser.hpp>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
+#include "jaco_kinematics/jaco_kinematics.hpp"
 #include "random_joints.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 namespace {
 
 using Matrix4 = Eigen::Matrix4d;
@@ -52,6 +54,25 @@ KDL::Chain arm_of_urdf() {
     throw std::runtime_error("no arm in " URDF_FILE);
   }
   return chain;
+}
+
+TEST(JacoJointLimits, AreThoseOfTheUrdf) {
+  const auto model = urdf::parseURDFFile(URDF_FILE);
+  ASSERT_TRUE(model);
+  const JointLimits& limits = jaco_joint_limits();
+  for (int i = 0; i < 7; ++i) {
+    const auto joint = model->getJoint("j2s7s300_joint_" + std::to_string(i + 1));
+    ASSERT_TRUE(joint && joint->limits);
+    EXPECT_NEAR(joint->limits->velocity, limits.velocity[i], 1e-12);
+    EXPECT_NEAR(joint->limits->effort, limits.effort[i], 1e-12);
+    if (std::isinf(limits.upper[i])) {
+      EXPECT_EQ(joint->type, urdf::Joint::CONTINUOUS);
+    } else {
+      EXPECT_EQ(joint->type, urdf::Joint::REVOLUTE);
+      EXPECT_NEAR(joint->limits->lower, limits.lower[i], 1e-12);
+      EXPECT_NEAR(joint->limits->upper, limits.upper[i], 1e-12);
+    }
+  }
 }
 
 TEST(JacoForward, EqualsTheProductOfTheJointOrigins) {
@@ -119,4 +140,4 @@ TEST(JacoForward, RefusesJointsThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

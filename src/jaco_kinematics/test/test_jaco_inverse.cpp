@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "jaco_v60_description/jaco_kinematics.hpp"
+#include "jaco_kinematics/jaco_kinematics.hpp"
 #include "random_joints.hpp"
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -333,4 +333,4 @@ TEST(JacoInverse, RefusesWhatIsNoPoseSeedOrOption) {
 }
 
 }  // namespace
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace jaco_v60_description {
+namespace jaco_kinematics {
 
 struct Options {
   std::string urdf = URDF_FILE;
@@ -112,4 +112,4 @@ inline void write_json(const std::vector<Row>& rows, const Options& options) {
   if (!file.flush()) throw std::invalid_argument("--json " + options.json + " cannot be written");
 }
 
-}  // namespace jaco_v60_description
+}  // namespace jaco_kinematics
