@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_core/stream_joiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace prf_core {
+namespace {
+
+using std::chrono::milliseconds;
+
+using Joiner = StreamJoiner<int, int>;
+
+Joiner joiner_with(Duration max_wait, Duration jump = std::chrono::seconds(1)) {
+  return Joiner({max_wait, jump, jump, 1000});
+}
+
+StampOrder primary(Joiner& joiner, int ms) { return joiner.push_primary(milliseconds(ms), ms); }
+StampOrder secondary(Joiner& joiner, int ms) { return joiner.push_secondary(milliseconds(ms), ms); }
+
+// "10=10" joined, "10=-" alone, "*" before the first of a new run.
+std::string decided(Joiner& joiner) {
+  std::string text;
+  while (const auto joined = joiner.pop()) {
+    EXPECT_EQ(joined->stamp, milliseconds(joined->primary));
+    if (joined->new_run) text += "*";
+    text += std::to_string(joined->primary) + "=" +
+            (joined->secondary ? std::to_string(*joined->secondary) : "-") + " ";
+  }
+  return text;
+}
+
+TEST(StreamJoiner, JoinsEqualStampsInEitherOrder) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  primary(joiner, 10);
+  EXPECT_EQ(decided(joiner), "");
+  secondary(joiner, 10);
+  EXPECT_EQ(decided(joiner), "10=10 ");
+  secondary(joiner, 20);
+  EXPECT_EQ(decided(joiner), "");
+  primary(joiner, 20);
+  EXPECT_EQ(decided(joiner), "20=20 ");
+}
+
+TEST(StreamJoiner, DecidesAloneOnceALaterSecondaryHasCome) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  primary(joiner, 10);
+  secondary(joiner, 20);
+  EXPECT_EQ(decided(joiner), "10=- ");
+  EXPECT_EQ(secondary(joiner, 20), StampOrder::kDuplicate);
+  primary(joiner, 20);
+  EXPECT_EQ(decided(joiner), "20=20 ");
+}
+
+TEST(StreamJoiner, GivesUpOnASilentStreamUntilItComesAgain) {
+  Joiner joiner = joiner_with(milliseconds(30));
+  for (const int ms : {0, 10, 20, 30}) primary(joiner, ms);
+  EXPECT_EQ(decided(joiner), "");
+  primary(joiner, 31);
+  EXPECT_EQ(decided(joiner), "0=- 10=- 20=- 30=- 31=- ");
+  EXPECT_TRUE(joiner.is_silent());
+  primary(joiner, 40);
+  EXPECT_EQ(decided(joiner), "40=- ");
+  EXPECT_EQ(secondary(joiner, 40), StampOrder::kOld);  // too late, but it is heard
+  primary(joiner, 50);
+  EXPECT_EQ(decided(joiner), "");
+  secondary(joiner, 50);
+  EXPECT_EQ(decided(joiner), "50=50 ");
+}
+
+TEST(StreamJoiner, GivesUpWhenMorePrimariesWaitThanItsCapacity) {
+  Joiner joiner({Duration::max(), Duration{0}, Duration{0}, 3});
+  for (const int ms : {1, 2, 3}) primary(joiner, ms);
+  EXPECT_EQ(decided(joiner), "");
+  primary(joiner, 4);
+  EXPECT_EQ(decided(joiner), "1=- ");
+  EXPECT_EQ(joiner.waiting(), 3u);
+}
+
+TEST(StreamJoiner, JoinsEveryPrimaryOfOneStamp) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  primary(joiner, 10);
+  EXPECT_EQ(primary(joiner, 10), StampOrder::kDuplicate);
+  secondary(joiner, 10);
+  EXPECT_EQ(decided(joiner), "10=10 10=10 ");
+}
+
+TEST(StreamJoiner, JoinsByAKeyThatThePrimaryNames) {
+  Joiner joiner = joiner_with(Duration::max());
+  secondary(joiner, 100);
+  joiner.push_primary(milliseconds(170), milliseconds(100), 170);
+  joiner.push_primary(milliseconds(270), milliseconds(200), 270);
+  EXPECT_EQ(decided(joiner), "170=100 ");
+  secondary(joiner, 300);
+  EXPECT_EQ(decided(joiner), "270=- ");
+}
+
+TEST(StreamJoiner, AdvancesWithoutAMessage) {
+  Joiner joiner = joiner_with(milliseconds(30));
+  primary(joiner, 0);
+  EXPECT_EQ(joiner.advance(milliseconds(31)), StampOrder::kNewer);
+  EXPECT_EQ(decided(joiner), "0=- ");
+  EXPECT_EQ(joiner.advance(milliseconds(-2000)), StampOrder::kBackwardJump);
+  EXPECT_EQ(decided(joiner), "");
+  primary(joiner, -2000);
+  secondary(joiner, -2000);
+  EXPECT_EQ(decided(joiner), "*-2000=-2000 ");
+}
+
+TEST(StreamJoiner, RecoversFromASecondaryFarInTheFuture) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  secondary(joiner, 1'000'000);
+  primary(joiner, 10);
+  primary(joiner, 20);
+  EXPECT_EQ(decided(joiner), "10=- 20=- ");
+  primary(joiner, 30);
+  EXPECT_EQ(secondary(joiner, 30), StampOrder::kBackwardJump);
+  EXPECT_EQ(decided(joiner), "30=30 ");
+  primary(joiner, 40);
+  EXPECT_EQ(decided(joiner), "");
+}
+
+TEST(StreamJoiner, RecoversFromASecondaryFarInThePast) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  primary(joiner, 5000);
+  EXPECT_EQ(secondary(joiner, 5000), StampOrder::kNewer);
+  EXPECT_EQ(secondary(joiner, 0), StampOrder::kBackwardJump);
+  EXPECT_EQ(decided(joiner), "");
+  secondary(joiner, 5010);
+  primary(joiner, 5010);
+  EXPECT_EQ(decided(joiner), "5000=- 5010=5010 ");
+}
+
+// A step back that is too short for the default bound, as when a simulator is started again soon.
+TEST(StreamJoiner, WithABoundOfZeroBeginsANewRunAtEveryStepBack) {
+  for (const bool secondary_first : {true, false}) {
+    Joiner joiner = joiner_with(milliseconds(300), Duration{0});
+    primary(joiner, 30);
+    secondary(joiner, 30);
+    secondary(joiner, 40);  // of the old run: must not be joined with the tick of the new one
+    EXPECT_EQ(decided(joiner), "30=30 ");
+    if (secondary_first) secondary(joiner, 10);
+    EXPECT_EQ(primary(joiner, 10), StampOrder::kBackwardJump);
+    EXPECT_EQ(decided(joiner), secondary_first ? "*10=10 " : "");
+    if (!secondary_first) {
+      EXPECT_EQ(secondary(joiner, 50), StampOrder::kOld);
+      EXPECT_EQ(secondary(joiner, 10), StampOrder::kBackwardJump);
+      EXPECT_EQ(decided(joiner), "*10=10 ");
+    }
+    primary(joiner, 40);
+    EXPECT_EQ(decided(joiner), "");
+  }
+}
+
+TEST(StreamJoiner, FollowsASecondaryThatWasSilentWhileTheClockWentBack) {
+  Joiner joiner = joiner_with(milliseconds(300));
+  secondary(joiner, 5000);
+  primary(joiner, 5000);
+  EXPECT_EQ(decided(joiner), "5000=5000 ");
+  for (int ms = 0; ms <= 5000; ms += 100) primary(joiner, ms);
+  EXPECT_EQ(decided(joiner).rfind("*0=- 100=- ", 0), 0u);
+  EXPECT_EQ(secondary(joiner, 5010), StampOrder::kBackwardJump);
+  primary(joiner, 5010);
+  EXPECT_EQ(decided(joiner), "5010=5010 ");
+}
+
+// Two runs: each stream goes back from 5000 to 0 in its own time.
+struct Streams {
+  std::vector<int> primaries;
+  std::vector<int> secondaries;
+};
+
+std::string deliver(const Streams& streams, const std::vector<bool>& turns) {
+  Joiner joiner = joiner_with(Duration::max());
+  std::string text;
+  auto next_primary = streams.primaries.begin();
+  auto next_secondary = streams.secondaries.begin();
+  for (const bool primary_next : turns) {
+    primary_next ? primary(joiner, *next_primary++) : secondary(joiner, *next_secondary++);
+    text += decided(joiner);
+  }
+  return text;
+}
+
+TEST(StreamJoiner, GivesTheSameInEveryOrderOfTwoStreams) {
+  const Streams streams{{10, 20, 30, 40, 50, 60}, {10, 30, 40, 45, 60, 70}};
+  std::vector<bool> turns(12, false);
+  std::fill(turns.end() - 6, turns.end(), true);
+  int orders = 0;
+  do {
+    ASSERT_EQ(deliver(streams, turns), "10=10 20=- 30=30 40=40 50=- 60=60 ");
+    ++orders;
+  } while (std::next_permutation(turns.begin(), turns.end()));
+  EXPECT_EQ(orders, 924);
+}
+
+// What the old run still gives depends on when the clock goes back; the new run never does.
+TEST(StreamJoiner, GivesTheSameNewRunInEveryOrderOfTwoStreamsThatGoBack) {
+  const std::string old_run = "5000=5000 5010=- 5020=5020 5030=5030 ";
+  const std::string new_run = "*0=0 10=- 20=20 30=30 ";
+  const Streams streams{{5000, 5010, 5020, 5030, 0, 10, 20, 30},
+                        {5000, 5020, 5025, 5030, 0, 20, 25, 30}};
+  std::vector<bool> turns(16, false);
+  std::fill(turns.end() - 8, turns.end(), true);
+  int orders = 0;
+  do {
+    const std::string text = deliver(streams, turns);
+    const std::size_t begin = text.find('*');
+    ASSERT_EQ(text.substr(std::min(begin, text.size())), new_run);
+    ASSERT_EQ(old_run.rfind(text.substr(0, begin), 0), 0u) << text;
+    ++orders;
+  } while (std::next_permutation(turns.begin(), turns.end()));
+  EXPECT_EQ(orders, 12870);
+}
+
+TEST(StreamJoiner, GivesTheSameWheneverNoStreamLagsByMoreThanMaxWait) {
+  std::mt19937 random(1);
+  std::string expected;
+  for (int order = 0; order < 200; ++order) {
+    Joiner joiner = joiner_with(milliseconds(300), Duration{0});
+    std::string text;
+    int primaries = 0;
+    int secondaries = 0;
+    while (primaries < 500 || secondaries < 500) {
+      const int lead = primaries - secondaries;
+      const bool primary_next =
+          secondaries == 500 || lead <= -25 || (lead < 25 && primaries < 500 && random() % 2 == 0);
+      if (primary_next) {
+        primary(joiner, 10 * ++primaries);
+      } else if (++secondaries % 7 != 0) {
+        secondary(joiner, 10 * secondaries);
+      }
+      text += decided(joiner);
+    }
+    if (order == 0) expected = text;
+    ASSERT_EQ(text, expected) << order;
+  }
+  EXPECT_EQ(std::count(expected.begin(), expected.end(), ' '), 500);
+  EXPECT_EQ(std::count(expected.begin(), expected.end(), '-'), 71);
+}
+
+}  // namespace
+}  // namespace prf_core
