@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from setuptools import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(packages=["prf_msgs"], package_dir={"": "python"}))
