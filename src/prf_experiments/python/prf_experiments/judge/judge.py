@@ -110,7 +110,7 @@ def strongest_by_pair(contacts):
 def posture(platform, base):
     """Height of the body above the deck, m, and its tilt against the deck, rad."""
     relative = geometry.compose(geometry.inverse(platform), base)
-    up = geometry.rotate(relative[:, 3:], np.array([0.0, 0.0, 1.0]))
+    up = geometry.rotation(relative).apply([0.0, 0.0, 1.0])
     return relative[:, 2], np.arccos(np.clip(up[:, 2], -1.0, 1.0))
 
 

@@ -228,7 +228,10 @@ class _Reader:
         return np.array(self._stamps[topic], dtype=np.int64)
 
     def poses(self, topic):
-        return Poses(self.stamps(topic), np.array(self._rows[topic], dtype=float).reshape(-1, 7))
+        values = np.array(self._rows[topic], dtype=float).reshape(-1, 7)
+        if np.any(np.all(values[:, 3:] == 0.0, axis=1)):
+            raise RecordingError(f"{topic} has a pose without orientation")
+        return Poses(self.stamps(topic), values)
 
     def progress(self):
         states, cursors, reasons, *posteriors = zip(*self._rows["execution/progress"])

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
+from scipy.spatial.transform import Slerp
 
 from prf_experiments import geometry
 
@@ -62,10 +63,11 @@ class Guide:
         self._start = np.asarray(hand, float)
         camera_in_hand = geometry.compose(geometry.inverse(hand), camera)
         self._goal = stand_off_pose(tag, camera_in_hand, parameters.stand_off)
-        normal = geometry.rotate(np.asarray(tag)[3:], np.array([0.0, 0.0, 1.0]))
+        normal = geometry.rotation(tag).apply([0.0, 0.0, 1.0])
         bend = self._goal[:3] + parameters.run_in * normal
         self._control_points = np.array(
             [self._start[:3], 0.5 * (self._start[:3] + bend), bend, self._goal[:3]])
+        self._turn = Slerp([0.0, 1.0], geometry.rotation(np.array([self._start, self._goal])))
         self._last = None  # stamp and pose of the hand
 
     @property
@@ -77,8 +79,7 @@ class Guide:
         elapsed = stamp - self._stamp - self._parameters.settle_time
         s = minimum_jerk(elapsed / self._parameters.guide_time)
         weights = np.array([(1 - s)**3, 3 * s * (1 - s)**2, 3 * s**2 * (1 - s), s**3])
-        return np.concatenate([weights @ self._control_points,
-                               geometry.slerp(self._start[3:], self._goal[3:], s)])
+        return geometry.make(weights @ self._control_points, self._turn(s))
 
     def wrench(self, stamp, hand):
         """Force (3,) and torque (3,) on the hand, whose pose is `hand` at `stamp`."""
@@ -87,10 +88,10 @@ class Guide:
         if self._last is not None and stamp > self._last[0]:
             interval = stamp - self._last[0]
             velocity = (hand[:3] - self._last[1][:3]) / interval
-            turned = geometry.multiply(hand[3:], geometry.conjugate(self._last[1][3:]))
-            rotation = geometry.log(turned) / interval
+            turned = geometry.rotation(hand) * geometry.rotation(self._last[1]).inv()
+            rotation = turned.as_rotvec() / interval
         self._last = (stamp, hand)
         guide, p = self.pose(stamp), self._parameters
-        deviation = geometry.log(geometry.multiply(guide[3:], geometry.conjugate(hand[3:])))
+        deviation = (geometry.rotation(guide) * geometry.rotation(hand).inv()).as_rotvec()
         return (p.stiffness * (guide[:3] - hand[:3]) - p.damping * velocity,
                 p.angular_stiffness * deviation - p.angular_damping * rotation)

@@ -6,6 +6,7 @@ import os
 import tempfile
 
 import numpy as np
+from scipy.spatial.transform import Slerp
 
 from prf_experiments import geometry
 from prf_experiments.record import frames, recording
@@ -29,8 +30,7 @@ def moving_part(times, poses):
     """Slice of the rows from the first to the last motion of the hand."""
     steps = np.diff(times)
     speed = np.linalg.norm(np.diff(poses[:, :3], axis=0), axis=1) / steps
-    turned = geometry.multiply(poses[1:, 3:], geometry.conjugate(poses[:-1, 3:]))
-    rate = np.linalg.norm(geometry.log(turned), axis=1) / steps
+    rate = (geometry.rotation(poses[1:]) * geometry.rotation(poses[:-1]).inv()).magnitude() / steps
     moving = np.flatnonzero((speed > MOVING_SPEED) | (rate > MOVING_RATE))
     if not moving.size:
         raise demonstration.DemonstrationError("the hand never moves")
@@ -41,16 +41,10 @@ def resample(times, poses, rate):
     """Poses at even times from the first to the last row, both of them included."""
     count = max(2, int(round((times[-1] - times[0]) * rate)) + 1)
     at = np.linspace(times[0], times[-1], count)
-    result = np.empty((count, 7))
-    for row, time in enumerate(at):
-        index = min(max(int(np.searchsorted(times, time, side="right")) - 1, 0), len(times) - 2)
-        fraction = (time - times[index]) / (times[index + 1] - times[index])
-        before, after = poses[index], poses[index + 1]
-        result[row, :3] = before[:3] + fraction * (after[:3] - before[:3])
-        result[row, 3:] = geometry.slerp(before[3:], after[3:], fraction)
+    positions = np.column_stack([np.interp(at, times, column) for column in poses[:, :3].T])
+    result = geometry.make(positions, Slerp(times, geometry.rotation(poses))(at))
     flip = np.sum(result[1:, 3:] * result[:-1, 3:], axis=1) < 0.0
     result[1:, 3:] *= np.where(np.cumsum(flip) % 2 == 1, -1.0, 1.0)[:, None]
-    result[:, 3:] /= np.linalg.norm(result[:, 3:], axis=1, keepdims=True)
     return at - times[0], result
 
 
@@ -70,12 +64,13 @@ def _target(path, tag_id):
         sights = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
                   for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
     camera = frames.lookup(buffer, recording.PLANNING_FRAME, "camera_optical_frame", stamps)
-    seen = geometry.compose(camera, np.array([sights[stamp] for stamp in stamps]).reshape(-1, 7))
-    seen = seen[np.all(np.isfinite(seen), axis=1)]
-    if not len(seen):
+    detected = np.array([sights[stamp] for stamp in stamps]).reshape(-1, 7)
+    known = np.all(np.isfinite(camera) & np.isfinite(detected), axis=1)
+    if not known.any():
         raise demonstration.DemonstrationError(
             f"{path}: the tag is not seen in the last {TARGET_WINDOW:g} s")
-    return np.concatenate([np.mean(seen[:, :3], axis=0), geometry.mean_quaternion(seen[:, 3:])])
+    seen = geometry.compose(camera[known], detected[known])
+    return geometry.make(np.mean(seen[:, :3], axis=0), geometry.rotation(seen).mean())
 
 
 def convert(path, command, tag_id=0):

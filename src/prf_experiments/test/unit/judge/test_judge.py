@@ -4,6 +4,7 @@ import sys
 import unittest
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic  # noqa: E402
@@ -171,7 +172,7 @@ class View(unittest.TestCase):
 class Failures(unittest.TestCase):
     def base_at(self, height, tilt):
         data = synthetic.make_recording()
-        turned = geometry.exp(np.array([tilt, 0.0, 0.0]))
+        turned = Rotation.from_rotvec([tilt, 0.0, 0.0]).as_quat()
         data.base.values[500] = np.concatenate([[-0.156, 0.0, height], turned])
         return data
 
@@ -187,7 +188,7 @@ class Failures(unittest.TestCase):
 
     def test_posture_counts_against_the_deck_not_the_world(self):
         data = synthetic.make_recording()
-        tilted = np.concatenate([np.zeros(3), geometry.exp(np.array([0.0, np.radians(40.0), 0.0]))])
+        tilted = geometry.make(np.zeros(3), Rotation.from_rotvec([0.0, np.radians(40.0), 0.0]))
         data.platform.values[:] = tilted
         data.base.values[:] = geometry.compose(tilted, synthetic.BASE)
         self.assertEqual(judge.judge(data).verdict, "S")

@@ -2,6 +2,7 @@
 import unittest
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
 from prf_experiments.teach import guide
@@ -21,7 +22,7 @@ def make(**changes):
 
 class Guide(unittest.TestCase):
     def test_tag_axes_are_those_of_the_test(self):
-        axes = [geometry.rotate(TAG[3:], axis) for axis in np.eye(3)]
+        axes = geometry.rotation(TAG).apply(np.eye(3))
         np.testing.assert_allclose(axes, [[0, -1, 0], [0, 0, 1], [-1, 0, 0]], atol=1e-12)
 
     def test_ends_with_the_camera_at_the_stand_off_looking_at_the_tag(self):
@@ -57,8 +58,8 @@ class Guide(unittest.TestCase):
         np.testing.assert_allclose(torque, np.zeros(3), atol=1e-9)
 
     def test_turns_toward_the_guide(self):
-        turned = HAND.copy()
-        turned[3:] = geometry.multiply(geometry.exp([0.0, 0.0, 0.1]), HAND[3:])
+        turned = geometry.make(HAND[:3], Rotation.from_rotvec([0.0, 0.0, 0.1])
+                               * geometry.rotation(HAND))
         np.testing.assert_allclose(make().wrench(5.0, turned)[1], [0.0, 0.0, -3.0], atol=1e-9)
 
     def test_brakes_a_moving_hand(self):

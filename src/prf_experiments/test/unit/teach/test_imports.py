@@ -7,6 +7,7 @@ import unittest
 
 import h5py
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
 from prf_experiments.judge import judge
@@ -19,9 +20,8 @@ UPRIGHT = [0.5, 0.5, 0.5, 0.5]  # the hand looks along x, the camera above it
 def motion():
     """A hand that goes 0.3 m along x in 4 s, turned by a little less than UPRIGHT at first."""
     x = 0.3 + 0.3 * TIMES / 4.0
-    turned = [geometry.multiply(geometry.exp([0.0, 0.0, 0.3 * (1 - time / 4.0)]), UPRIGHT)
-              for time in TIMES]
-    return np.hstack([np.column_stack([x, 0 * x, 0.5 + 0 * x]), turned])
+    turned = Rotation.from_euler("z", 0.3 * (1 - TIMES / 4.0)) * Rotation.from_quat(UPRIGHT)
+    return geometry.make(np.column_stack([x, 0 * x, 0.5 + 0 * x]), turned)
 
 
 class Imports(unittest.TestCase):
@@ -96,8 +96,7 @@ class Imports(unittest.TestCase):
         # Seen along the base's x: x right (-y), y up (z), z toward the viewer (-x).
         for axis, seen in (((1, 0, 0), (0, -1, 0)), ((0, 1, 0), (0, 0, 1)),
                            ((0, 0, 1), (-1, 0, 0))):
-            np.testing.assert_allclose(geometry.rotate(target[3:], np.array(axis, float)), seen,
-                                       atol=1e-6)
+            np.testing.assert_allclose(geometry.rotation(target).apply(axis), seen, atol=1e-6)
 
     def test_said_target_is_kept_and_the_file_can_be_read_again(self):
         out = self.path("out.csv")

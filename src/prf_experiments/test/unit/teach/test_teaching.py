@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic  # noqa: E402
@@ -60,8 +61,7 @@ class Teaching(unittest.TestCase):
 
     def test_resampled_quaternions_do_not_change_sign(self):
         times = np.linspace(0.0, 1.0, 11)
-        turned = [geometry.exp([0.0, 0.0, 0.1 * row]) for row in range(11)]
-        poses = np.hstack([np.zeros((11, 3)), turned])
+        poses = geometry.make(np.zeros((11, 3)), Rotation.from_euler("z", 0.1 * np.arange(11)))
         poses[5:, 3:] *= -1.0
         quaternions = teaching.resample(times, poses, 50.0)[1][:, 3:]
         self.assertTrue(np.all(np.sum(quaternions[1:] * quaternions[:-1], axis=1) > 0.9))
