@@ -1,28 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Statistics of trials: intervals of rates, and comparisons paired by seed."""
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.stats
 
-Z_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
-
-def wilson(successes, trials, z=Z_95):
-    """(low, high) of a rate: Wilson's score interval; (0, 1) when there was no trial.
-
-    E. B. Wilson, J. Am. Stat. Assoc. 22 (1927): the rates p with |p^ - p| <= z sqrt(p(1-p)/n).
-    """
+def wilson(successes: int, trials: int) -> tuple[float, float]:
+    """(low, high) of a rate: Wilson's 95 % score interval; (0, 1) when there was no trial."""
     if not 0 <= successes <= trials:
         raise ValueError(f"successes = {successes}, must be in 0..{trials}")
     if trials == 0:
         return 0.0, 1.0
-    rate, share = successes / trials, z * z / trials
-    centre = (rate + share / 2) / (1 + share)
-    half = z * math.sqrt(rate * (1 - rate) / trials + share / (4 * trials)) / (1 + share)
-    return (0.0 if successes == 0 else centre - half,
-            1.0 if successes == trials else centre + half)  # exact where rounding is not
+    found = scipy.stats.binomtest(successes, trials).proportion_ci(0.95, "wilson")
+    return float(found.low), float(found.high)
 
 
 @dataclass(frozen=True)
@@ -30,11 +22,11 @@ class Spread:
     """Mean and standard deviation (n - 1) of n numbers; None where they are not defined."""
 
     count: int
-    mean: float = None
-    deviation: float = None
+    mean: float | None = None
+    deviation: float | None = None
 
 
-def spread(values):
+def spread(values: Sequence[float | None]) -> Spread:
     values = np.array([value for value in values if value is not None], dtype=float)
     return Spread(len(values), float(values.mean()) if len(values) else None,
                   float(values.std(ddof=1)) if len(values) > 1 else None)
@@ -46,11 +38,11 @@ class Paired:
 
     count: int
     difference: Spread
-    t_p: float = None
-    wilcoxon_p: float = None
+    t_p: float | None = None
+    wilcoxon_p: float | None = None
 
 
-def paired(first, second):
+def paired(first: Sequence[float | None], second: Sequence[float | None]) -> Paired:
     """Paired t-test and Wilcoxon's signed-rank test of two series; None marks a missing number."""
     if len(first) != len(second):
         raise ValueError(f"{len(first)} and {len(second)} numbers, must be pairs")
