@@ -6,5 +6,6 @@ from catkin_pkg.python_setup import generate_distutils_setup
 ROOMS = ["judge", "record", "report", "run", "sweep", "teach"]
 
 setup(**generate_distutils_setup(
+    package_data={"prf_experiments.report": ["templates/*"]},
     packages=["prf_experiments", *("prf_experiments." + room for room in ROOMS)],
     package_dir={"": "python"}))

@@ -8,6 +8,7 @@ import io
 
 import matplotlib
 import numpy as np
+from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from prf_experiments.judge import judge
@@ -42,7 +43,7 @@ def svg(figure, description):
         figure.savefig(stream, format="svg", metadata={"Date": None})
     text = stream.getvalue()
     text = text[text.index("<svg"):]
-    return text.replace("<svg", f'<svg role="img" aria-label="{description}"', 1)
+    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{description}"', 1))
 
 
 def _grid(axes):

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a trial's scene for its report: key frames and a short animation."""
 import base64
-import html
 import os
 import subprocess
 import tempfile
 
 import PIL.Image
 from catkin.find_in_workspaces import find_in_workspaces
+from markupsafe import Markup
 
 from prf_experiments.judge import judge
+from prf_experiments.report import page
 from prf_experiments.run import processes
 
 WIDTH = 640  # px of a key frame
@@ -42,8 +43,7 @@ def _run(words):
 def _embedded(path, text):
     with open(path, "rb") as stream:
         content = base64.b64encode(stream.read()).decode("ascii")
-    return (f'<figure><img alt="{text}" src="data:image/webp;base64,{content}">'
-            f"<figcaption>{text}</figcaption></figure>")
+    return page.render("picture.html", text=text, content=content)
 
 
 def key_frames(bag, data, figures):
@@ -60,7 +60,7 @@ def key_frames(bag, data, figures):
                 picture.thumbnail((WIDTH, WIDTH))
                 picture.save(small, quality=80)
             parts.append(_embedded(small, f"{time:.1f} s: {text}"))
-    return "\n".join(parts)
+    return Markup("\n").join(parts)
 
 
 def animation(bag):
@@ -78,5 +78,5 @@ def of(bag, data, figures):
         try:
             parts.append(draw(*words))
         except (processes.ProcessError, OSError, IndexError, subprocess.SubprocessError) as error:
-            parts.append(f"<p>Not drawn: {html.escape(str(error).splitlines()[0])}.</p>")
-    return "\n".join(parts)
+            parts.append(Markup("<p>Not drawn: {}.</p>").format(str(error).splitlines()[0]))
+    return Markup("\n").join(parts)

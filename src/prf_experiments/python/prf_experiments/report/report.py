@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A trial's report: one HTML file that needs nothing else."""
 import contextlib
-import html
 import os
+from collections.abc import Sequence
 
 import numpy as np
+from markupsafe import Markup
 
 from prf_experiments import geometry
 from prf_experiments.judge import judge, target, timeline
 from prf_experiments.record import frames, recording
 from prf_experiments.report import figures, page
+from prf_experiments.report.page import Section
+from prf_experiments.teach import demonstration
 
 MEANING = {"S": "success", "P": "partial success", "F": "failure", "INVALID": "no evidence"}
 
 
-def target_figure(bag, data, shown="xyz"):
+def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Markup:
     """The target over time; what was measured is placed with the encoders' transforms."""
     camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), recording.PLANNING_FRAME,
                            "camera_optical_frame", data.sight_stamps)
@@ -24,7 +27,8 @@ def target_figure(bag, data, shown="xyz"):
                                     shown)
 
 
-def draw(bag, data, demonstrated):
+def draw(bag: str, data: recording.Recording,
+         demonstrated: demonstration.Demonstration) -> list[tuple[str, str, Markup]]:
     """The figures of a trial: [(title, text, svg)]."""
     _, base_at, hand_at = target.matched(target.arm_base(data), data.end_effector)
     executed = target.relative_to(base_at, hand_at)
@@ -50,49 +54,45 @@ def draw(bag, data, demonstrated):
     ]
 
 
-def parts(content, data, drawings, scene="", parameters=""):
-    """Body of a trial's page. `content` is what verdict.json holds, `scene` is HTML."""
-    verdict = content["verdict"]
+def sections(content: dict, data: recording.Recording | None,
+             drawings: Sequence[tuple[str, str, Markup]], scene: Markup | str) -> list[Section]:
+    """What a trial's page shows. `content` is what verdict.json holds."""
     pairs = content["figures"].get("largest_contact_by_pair_n", {})
     measures = [(name, value) for name, value in content["figures"].items()
                 if name != "largest_contact_by_pair_n"]
-    measures += [("wall_time_s", content.get("wall_time_s")),
-                 ("simulated_per_real_time", content.get("simulated_per_real_time"))]
-    inspected = " (inspected)" if content["inspected"] else ""
-    body = [
-        f"<p class=\"verdict\"><b>{verdict}</b> {MEANING[verdict]}{inspected}: "
-        f"{html.escape(content['reason'])}</p>",
-        f"<pre>{html.escape(content.get('command', ''))}</pre>",
-    ]
-    if scene:
-        body += ["<h2>Scene</h2>", scene]
-    for title, text, drawing in drawings:
-        body += [f"<h2>{title}</h2><p>{text}</p>", drawing]
+    measures += [(name, content.get(name)) for name in ("wall_time_s", "simulated_per_real_time")]
+    found = [Section("Scene", body=[scene])] if scene else []
+    found += [Section(title, text, [drawing]) for title, text, drawing in drawings]
     if data is not None:
-        told = timeline.text(data, judge.Verdict(verdict, content["inspected"], content["reason"],
-                                                 content["figures"]))
-        body += ["<h2>Timeline</h2>", f"<pre class=\"wide\">{html.escape(told)}</pre>"]
-    body += ["<h2>Figures of merit</h2>", page.table(measures)]
+        told = timeline.text(data, judge.Verdict(content["verdict"], content["inspected"],
+                                                 content["reason"], content["figures"]))
+        found.append(Section("Timeline", body=[Markup('<pre class="wide">{}</pre>').format(told)]))
+    found.append(Section("Figures of merit", body=[page.table(measures)]))
     if pairs:
-        body += ["<h2>Contacts of the arm</h2>",
-                 page.table(sorted(pairs.items()), ("links", "largest force, N"))]
-    body += ["<h2>Arguments and versions</h2>",
-             page.table([*content.get("arguments", {}).items(),
-                         *content.get("versions", {}).items()])]
-    if parameters:
-        body += ["<details><summary>Parameters of all nodes</summary><pre>"
-                 f"{html.escape(parameters)}</pre></details>"]
-    return body
+        found.append(Section("Contacts of the arm", body=[
+            page.table(sorted(pairs.items()), ("links", "largest force, N"))]))
+    found.append(Section("Arguments and versions", body=[
+        page.table([*content.get("arguments", {}).items(), *content.get("versions", {}).items()])]))
+    return found
 
 
-def write(path, bag, data, content, demonstrated, scene=""):
+def render(content: dict, data: recording.Recording | None,
+           drawings: Sequence[tuple[str, str, Markup]], scene: Markup | str = "",
+           parameters: str = "") -> str:
+    """The page of a trial."""
+    return page.render("report.html", title="Trial " + content["verdict"],
+                       content={"command": "", **content}, meaning=MEANING[content["verdict"]],
+                       sections=sections(content, data, drawings, scene), parameters=parameters)
+
+
+def write(path: str, bag: str, data: recording.Recording | None, content: dict,
+          demonstrated: demonstration.Demonstration, scene: Markup | str = "") -> None:
     """Writes the report of a trial; `data` is None when the recording could not be read."""
     parameters = ""
     with contextlib.suppress(OSError), \
             open(os.path.join(os.path.dirname(bag), "parameters.yaml"), encoding="utf-8") as stream:
         parameters = stream.read()
     drawn = data is not None and content["verdict"] != "INVALID"
+    drawings = draw(bag, data, demonstrated) if drawn else []
     with open(path, "w", encoding="utf-8") as stream:
-        drawings = draw(bag, data, demonstrated) if drawn else []
-        stream.write(page.whole("Trial " + content["verdict"],
-                                parts(content, data, drawings, scene, parameters)))
+        stream.write(render(content, data, drawings, scene, parameters))

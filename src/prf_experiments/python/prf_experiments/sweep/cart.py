@@ -2,12 +2,13 @@
 """The box is pushed aside while the skill is executed: demonstration and adapted path, and the
 error at the end."""
 from prf_experiments.report import report
+from prf_experiments.report.page import Section
 from prf_experiments.run import trial
 from prf_experiments.sweep import statistics
 from prf_experiments.teach import demonstration
 from prf_experiments.sweep.compare import with_spread
-from prf_experiments.sweep.study import NO_BAG, Study, cell, letters, read_bag, test_link, values
-from prf_experiments.sweep.table import aligned, shown, tests
+from prf_experiments.sweep.study import NO_BAG, Study, cell, letters, read_bag, values
+from prf_experiments.sweep.table import aligned, grouped, shown
 
 AXES = {"framework": [False, True]}
 FIXED = {"scenario": "cart", "motion": "none"}
@@ -30,26 +31,26 @@ def summarise(results):
 
 def text(summary):
     return aligned([("framework", "tests", *NUMBERS.values())]
-                   + [(shown("framework", found["framework"]), tests(found["tests"]),
+                   + [(shown("framework", found["framework"]), grouped(found["tests"]),
                        *(with_spread(found[name], "+.1f") for name in NUMBERS))
                       for found in summary["cells"]])
 
 
-def parts(_summary, results, folder):
+def sections(_summary: dict, results: list[dict], folder: str) -> list[Section]:
     """Paths of each cell's first trial."""
-    body = []
+    found = []
     for framework in values(results, "framework"):
         result = cell(results, framework=framework)[0]
-        body.append(f"<h2>Framework {shown('framework', framework)}, seed "
-                    f"{result['arguments']['seed']} {test_link(result)}</h2>")
+        title = (f"Framework {shown('framework', framework)}, seed {result['arguments']['seed']}: "
+                 + result["verdict"])
         bag, data = read_bag(folder, result)
         if data is None:
-            body.append(NO_BAG)
+            found.append(Section(title, NO_BAG))
             continue
         skill = demonstration.read(trial.skill(result["arguments"]))
-        body += [f"<p>{words}</p>{drawing}" for _, words, drawing
-                 in report.draw(bag, data, skill)[1:]]
-    return body
+        found += [Section(f"{title}. {name}", words, [drawing])
+                  for name, words, drawing in report.draw(bag, data, skill)[1:]]
+    return found
 
 
-STUDY = Study("Moving box", AXES, FIXED, summarise, text, parts, keep_bags="all")
+STUDY = Study("Moving box", AXES, FIXED, summarise, text, sections, keep_bags="all")

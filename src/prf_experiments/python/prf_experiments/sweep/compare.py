@@ -3,9 +3,10 @@
 from matplotlib.figure import Figure
 
 from prf_experiments.report import figures, page
+from prf_experiments.report.page import Section
 from prf_experiments.sweep import statistics
-from prf_experiments.sweep.study import Study, cell, letters, test_link, values
-from prf_experiments.sweep.table import aligned, tests
+from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
+from prf_experiments.sweep.table import aligned, grouped
 
 AXES = {"motion": ["none", "light", "heavy"], "planner": ["elte", "dmp", "lte", "elastic_map"]}
 FIXED = {"gait": "step"}
@@ -65,7 +66,7 @@ def probability(value):
 
 def text(summary):
     rows = [("motion", "planner", "tests", *(f"{name}, mm" for name in MEASURES.values()))]
-    rows += [(found["motion"], found["planner"], tests(found["tests"]),
+    rows += [(found["motion"], found["planner"], grouped(found["tests"]),
               *(with_spread(found[name]) for name in MEASURES)) for found in summary["cells"]]
     lines = [("motion", "difference", "of", "pairs", "mean ± sd, mm", "p (t)", "p (Wilcoxon)")]
     lines += [(found["motion"], f"{found['first']} − {found['second']}",
@@ -102,14 +103,14 @@ def distance_figure(summary, name):
     return figures.svg(figure, f"Distance from the optical axis: {MEASURES[name]}")
 
 
-def parts(summary, results, _folder):
-    linked = [(motion, planner, page.Markup(" ".join(
-        test_link(result) for result in cell(results, motion=motion, planner=planner))))
-        for motion in values(results, "motion") for planner in values(results, "planner")]
-    return ["<h2>Distances</h2><p>Bars: mean over the seeds; whiskers: standard deviation.</p>",
-            *(distance_figure(summary, name) for name in MEASURES),
-            "<h2>Each test</h2><p>Every letter leads to its trial.</p>",
-            page.table(linked, ("motion", "planner", "tests"))]
+def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
+    linked = [(motion, planner,
+               verdict_links(cell(results, motion=motion, planner=planner)))
+              for motion in values(results, "motion") for planner in values(results, "planner")]
+    return [Section("Distances", "Bars: mean over the seeds; whiskers: standard deviation.",
+                    [distance_figure(summary, name) for name in MEASURES]),
+            Section("Each test", "Every letter leads to its trial.",
+                    [page.table(linked, ("motion", "planner", "tests"))])]
 
 
-STUDY = Study("Planners", AXES, FIXED, summarise, text, parts)
+STUDY = Study("Planners", AXES, FIXED, summarise, text, sections)

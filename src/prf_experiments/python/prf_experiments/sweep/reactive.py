@@ -4,8 +4,9 @@ import numpy as np
 
 from prf_experiments.judge import judge, target
 from prf_experiments.report import page, report
+from prf_experiments.report.page import Section
 from prf_experiments.sweep import statistics
-from prf_experiments.sweep.study import NO_BAG, Study, read_bag, test_link
+from prf_experiments.sweep.study import NO_BAG, Study, read_bag
 from prf_experiments.sweep.table import aligned
 
 FIXED = {"motion": "light", "gait": "step"}
@@ -46,19 +47,19 @@ def axis_errors(data):
     return [float(error) for error in 1e3 * np.sqrt(np.mean(found**2, axis=0))] or [None] * 3
 
 
-def parts(_summary, results, folder):
-    body = []
+def sections(_summary: dict, results: list[dict], folder: str) -> list[Section]:
+    found = []
     for result in results:
         bag, data = read_bag(folder, result)
-        body.append(f"<h2>Seed {result['arguments']['seed']} {test_link(result)}</h2>")
+        title = f"Seed {result['arguments']['seed']}: {result['verdict']}"
         if data is None:
-            body.append(NO_BAG)
+            found.append(Section(title, NO_BAG))
             continue
-        body += [f"<p>In the arm's base frame; time spent: {phase_shares(data)}.</p>",
-                 report.target_figure(bag, data, AXES_SHOWN),
-                 page.table([axis_errors(data)],
-                            ("forecast error, rms: x, mm", "y, mm", "z, mm"))]
-    return body
+        found.append(Section(
+            title, f"In the arm's base frame; time spent: {phase_shares(data)}.",
+            [report.target_figure(bag, data, AXES_SHOWN),
+             page.table([axis_errors(data)], ("forecast error, rms: x, mm", "y, mm", "z, mm"))]))
+    return found
 
 
-STUDY = Study("Reactive execution", {}, FIXED, summarise, text, parts, seeds=1, keep_bags="all")
+STUDY = Study("Reactive execution", {}, FIXED, summarise, text, sections, seeds=1, keep_bags="all")

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all experiments share: axes, sweep, numbers as text, JSON and page."""
-import html
 import json
 import os
 from dataclasses import dataclass
@@ -9,6 +8,7 @@ from typing import Callable
 from prf_experiments.run import arguments as args
 from prf_experiments.record import recording
 from prf_experiments.report import page
+from prf_experiments.report.page import Markup, Section
 from prf_experiments.run import session, trial, trial_arguments
 from prf_experiments.sweep import sweep
 
@@ -25,7 +25,7 @@ class Study:
     fixed: dict  # {argument: value} that is not the default
     summarise: Callable  # results -> {key: ...}, goes into the JSON file
     text: Callable  # summary -> what the terminal shows
-    parts: Callable  # summary, results, folder -> HTML of the page
+    sections: Callable  # summary, results, folder -> [Section] of the page
     seeds: int = FIRST_SEEDS
     keep_bags: str = "failed"
 
@@ -52,12 +52,15 @@ def link(arguments, folder="."):
         os.path.join(sweep.trial_folder(folder, arguments), "report.html"), folder)
 
 
-def test_link(result):
+def verdict_link(result: dict) -> Markup:
     """A trial's verdict as a link to its report."""
-    verdict = result["verdict"]
-    title = html.escape(f"seed {result['arguments']['seed']}: {result['reason']}", quote=True)
-    return page.Markup(f'<a class="test {verdict}" href="{html.escape(link(result["arguments"]))}" '
-                       f'title="{title}">{letters([result])}</a>')
+    return page.render("verdict_link.html", result=result, address=link(result["arguments"]),
+                       letter=letters([result]))
+
+
+def verdict_links(results: list[dict]) -> Markup:
+    """The verdicts of some trials, each a link."""
+    return Markup(" ").join(map(verdict_link, results))
 
 
 def letters(results):
@@ -75,7 +78,7 @@ def read_bag(folder, result):
         return bag, None
 
 
-NO_BAG = "<p>Its bag is not there; keep it with <code>--keep-bags all</code>.</p>"
+NO_BAG = "Its bag is not there; keep it with --keep-bags all."
 
 
 def cell(results, **chosen):
@@ -89,20 +92,24 @@ def values(results, name):
     return list(dict.fromkeys(result["arguments"][name] for result in results))
 
 
-def write_page(path, study, command, versions, results, body):
+def write_page(path: str, study: Study, command: str, versions: dict, results: list[dict],
+               summary: dict) -> None:
+    """The page of a study; links are relative to its folder."""
     shared = {name: found[0] for name in trial_arguments.LAUNCHED
               if len(found := values(results, name)) == 1}
     took = sum(result.get("disk_bytes", 0) for result in results)
-    parts = [f"<pre>{html.escape(command)}</pre>", *body,
-             "<h2>Trials</h2>",
-             page.table([(test_link(result), trial_arguments.name(result["arguments"]),
-                          result["inspected"], result["reason"]) for result in results],
-                        ("verdict", "trial", "inspected", "reason")),
-             "<h2>Arguments that all trials share, and versions</h2>",
-             page.table([*((name, args.show(value)) for name, value in shared.items()),
-                         *versions.items(), ("disk, MB", took / sweep.MEGABYTE)])]
+    sections = [
+        *study.sections(summary, results, os.path.dirname(path)),
+        Section("Trials", body=[page.table(
+            [(verdict_link(result), trial_arguments.name(result["arguments"]), result["inspected"],
+              result["reason"]) for result in results],
+            ("verdict", "trial", "inspected", "reason"))]),
+        Section("Arguments that all trials share, and versions", body=[page.table(
+            [*((name, args.show(value)) for name, value in shared.items()), *versions.items(),
+             ("disk, MB", took / sweep.MEGABYTE)])])]
     with open(path, "w", encoding="utf-8") as stream:
-        stream.write(page.whole(study.title, parts))
+        stream.write(page.render("study.html", title=study.title, command=command,
+                                 text=study.text(summary), sections=sections))
 
 
 def run(study, options, command):
@@ -118,10 +125,8 @@ def run(study, options, command):
         with open(path, "w", encoding="utf-8") as stream:
             json.dump(summary, stream, indent=2)
             stream.write("\n")
-    body = [f'<pre class="wide">{html.escape(study.text(summary))}</pre>',
-            *study.parts(summary, results, folder)]
     index = os.path.join(folder, "index.html")
-    write_page(index, study, command, versions, results, body)
+    write_page(index, study, command, versions, results, summary)
     print(study.text(summary) + "\n" + index)
     return EXIT_INVALID if any(result["verdict"] == "INVALID" for result in results) else EXIT_OK
 

@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from prf_experiments.report import figures, page
+from prf_experiments.report.page import Section
 from prf_experiments.sweep import statistics
-from prf_experiments.sweep.study import Study, cell, letters, test_link, values
+from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
 
 AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
         "framework": [False, True]}
@@ -68,7 +69,7 @@ def percent(found):
             f"{100 * found['fraction_high_95']:.0f})")
 
 
-def tests(text):
+def grouped(text: str) -> str:
     """Verdicts in groups of ten; few of them apart, as in the paper's table."""
     if len(text) <= 10:
         return " ".join(text)
@@ -88,7 +89,7 @@ def text(summary):
     for found in summary["cells"]:
         off = found["tracking_lateral_mm"]["mean"]
         rows.append((*(shown(name, found[name]) for name in summary["axes"]),
-                     tests(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
+                     grouped(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
                      percent(found["success"]), percent(found["inspected"]),
                      "–" if off is None else f"{off:.1f}", f"{found['largest_contact_n']:.1f}"))
     return aligned(rows)
@@ -138,19 +139,20 @@ def counts_figure(summary):
     return figures.svg(figure, "Verdicts of each cell: success, partial success, failure, invalid")
 
 
-def parts(summary, results, _folder):
+def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
     axes = summary["axes"]
     linked = [(*(shown(name, chosen[name]) for name in axes),
-               page.Markup(" ".join(test_link(result) for result in found)),
-               percent(numbers["success"]), percent(numbers["inspected"]))
+               verdict_links(found), percent(numbers["success"]), percent(numbers["inspected"]))
               for (chosen, found), numbers in zip(cells(results, axes), summary["cells"])]
-    return ["<h2>Each test</h2><p>Every letter leads to its trial.</p>",
-            page.table(linked, (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)")),
-            "<h2>Counts</h2>", counts_figure(summary),
-            "<h2>Distances</h2>", distance_figure(summary, results),
-            "<p>S success, P partial success, F failure, × no evidence. Rates are of the valid "
-            "trials, with Wilson's 95 % interval. Off axis: mean distance of the tag's centre from "
-            "the optical axis while tracking. Contact: the largest of arm, hand or camera.</p>"]
+    return [
+        Section("Each test", "Every letter leads to its trial. S success, P partial success, "
+                "F failure, × no evidence. Rates are of the valid trials, with Wilson's 95 % "
+                "interval. Off axis: mean distance of the tag's centre from the optical axis while "
+                "tracking. Contact: the largest of arm, hand or camera.",
+                [page.table(linked,
+                            (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)"))]),
+        Section("Counts", body=[counts_figure(summary)]),
+        Section("Distances", body=[distance_figure(summary, results)])]
 
 
-STUDY = Study("Trials", AXES, {}, summarise, text, parts)
+STUDY = Study("Trials", AXES, {}, summarise, text, sections)

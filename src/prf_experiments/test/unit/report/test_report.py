@@ -92,8 +92,8 @@ class Report(unittest.TestCase):
 
     def test_shows_the_scene_and_the_parameters_of_the_nodes(self):
         content = judge.invalid("cut").as_json()
-        text = page.whole("Trial", report.parts(content, None, [], "<p>a picture</p>",
-                                                "decision: {lead: <0.02>}"))
+        text = report.render(content, None, [], page.Markup("<p>a picture</p>"),
+                             "decision: {lead: <0.02>}")
         self.assert_sound(text)
         self.assertIn("<h2>Scene</h2>\n<p>a picture</p>", text)
         self.assertIn("decision: {lead: &lt;0.02&gt;}", text)

@@ -28,7 +28,7 @@ class OneFigureStudies(unittest.TestCase):
     def test_pages_say_so_when_a_bag_was_not_kept(self):
         results = trials(True, 1.0)
         for study in (cart, reactive):
-            self.assertIn("--keep-bags all", "".join(study.parts({}, results, "/absent")))
+            self.assertIn("--keep-bags all", study.sections({}, results, "/absent")[0].text)
 
 
 if __name__ == "__main__":

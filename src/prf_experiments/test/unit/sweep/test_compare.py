@@ -7,6 +7,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 from made_up import result  # noqa: E402
+from prf_experiments.report import page  # noqa: E402
 from prf_experiments.sweep import compare, statistics  # noqa: E402
 
 
@@ -58,7 +59,7 @@ class Compare(unittest.TestCase):
         text = compare.text(summary)
         self.assertRegex(text, r"heavy +dmp +SSSSSSSSSS SS")
         self.assertRegex(text, r"light +elte − dmp +tracking, sd +12 +-\d\.\d ± 0\.\d +< 0\.001")
-        body = "".join(compare.parts(summary, results, ""))
+        body = page.render("sections.html", sections=compare.sections(summary, results, ""))
         self.assertEqual(body.count("<svg"), len(compare.MEASURES))
         self.assertEqual(body.count('class="test S"'), len(results))
 

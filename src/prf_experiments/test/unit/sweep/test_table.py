@@ -34,8 +34,8 @@ class Table(unittest.TestCase):
         self.assertRegex(lines[2], r"^on +heavy +step +S S × +2 +0 +0 +1 +100 \(34–100\)")
 
     def test_many_tests_are_grouped_by_ten(self):
-        self.assertEqual(table.tests("S" * 12), "SSSSSSSSSS SS")
-        self.assertEqual(table.tests("SPF"), "S P F")
+        self.assertEqual(table.grouped("S" * 12), "SSSSSSSSSS SS")
+        self.assertEqual(table.grouped("SPF"), "S P F")
 
     def test_a_cell_without_valid_trials_has_no_rate(self):
         summary = table.summarise([result("INVALID", False)])
@@ -47,7 +47,7 @@ class Table(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "index.html")
             study.write_page(path, table.STUDY, "run <it>", {"commit": "abc"}, RESULTS,
-                             table.parts(summary, RESULTS, folder))
+                             summary)
             with open(path, encoding="utf-8") as stream:
                 text = stream.read()
         links = re.findall('<a class="test ([A-Z]+)" href="([^"]*)"', text)
