@@ -3,26 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "require.hpp"
+#include <prf_core/require.hpp>
 
 namespace prf_perception {
 
-bool distorts(const CameraIntrinsics& camera) {
-  const auto& d = camera.distortion;
-  return std::any_of(d.begin(), d.end(), [](double value) { return value != 0.0; });
+bool CameraIntrinsics::distorts() const {
+  return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
 }
 
-void validate(const CameraIntrinsics& camera) {
-  require(camera.width > 0, "camera width", camera.width, "> 0 px");
-  require(camera.height > 0, "camera height", camera.height, "> 0 px");
-  require(camera.fx > 0 && std::isfinite(camera.fx), "camera fx", camera.fx, "finite and > 0 px");
-  require(camera.fy > 0 && std::isfinite(camera.fy), "camera fy", camera.fy, "finite and > 0 px");
-  require(std::isfinite(camera.cx), "camera cx", camera.cx, "finite");
-  require(std::isfinite(camera.cy), "camera cy", camera.cy, "finite");
-  for (const double d : camera.distortion) {
-    require(std::isfinite(d), "camera distortion", d, "finite");
-  }
+void CameraIntrinsics::validate() const {
+  using prf_core::require;
+  require(width > 0, "camera width", width, "> 0 px");
+  require(height > 0, "camera height", height, "> 0 px");
+  require(fx > 0 && std::isfinite(fx), "camera fx", fx, "finite and > 0 px");
+  require(fy > 0 && std::isfinite(fy), "camera fy", fy, "finite and > 0 px");
+  prf_core::require_finite("camera cx", cx);
+  prf_core::require_finite("camera cy", cy);
+  for (const double d : distortion) prf_core::require_finite("camera distortion", d);
 }
 
 }  // namespace prf_perception

@@ -71,7 +71,7 @@ Eigen::Vector2d undistorted(const Eigen::Vector2d& seen, const CameraIntrinsics&
 }
 
 Corners ideal_corners(const Corners& seen, const CameraIntrinsics& camera) {
-  if (!distorts(camera)) return seen;
+  if (!camera.distorts()) return seen;
   Corners ideal;
   for (std::size_t i = 0; i < 4; ++i) ideal[i] = undistorted(seen[i], camera);
   for (int round = 0; round < kRounds; ++round) {

@@ -4,9 +4,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <prf_core/require.hpp>
+#include <string>
 #include <utility>
-
-#include "require.hpp"
 
 namespace prf_perception {
 namespace {
@@ -162,13 +162,14 @@ double root_mean_square(const Minimum& minimum) { return std::sqrt(minimum.squar
 
 }  // namespace
 
-void validate(const CornerErrorModel& model) {
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  require(positive(model.corner_sigma), "corner_sigma", model.corner_sigma, "finite and > 0 px");
-  require(positive(model.position_floor), "position_floor", model.position_floor,
-          "finite and > 0 m");
-  require(positive(model.orientation_floor), "orientation_floor", model.orientation_floor,
-          "finite and > 0 rad");
+void CornerErrorModel::validate() const {
+  const auto require_usable = [](const char* name, double value, const char* unit) {
+    prf_core::require(value > 0 && std::isfinite(value), name, value,
+                      std::string("finite and > 0 ") + unit);
+  };
+  require_usable("corner_sigma", corner_sigma, "px");
+  require_usable("position_floor", position_floor, "m");
+  require_usable("orientation_floor", orientation_floor, "rad");
 }
 
 Corners project_corners(const Eigen::Isometry3d& marker_in_camera, double side,

@@ -12,14 +12,17 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <prf_core/require.hpp>
 #include <string_view>
 #include <tuple>
 
 #include "prf_perception/lens.hpp"
-#include "require.hpp"
 
 namespace prf_perception {
 namespace {
+
+using prf_core::require;
+using prf_core::require_between;
 
 struct FamilyFunctions {
   std::string_view name;
@@ -72,20 +75,15 @@ Eigen::Isometry3d initial_pose(apriltag_detection_t& detection, const CameraIntr
 
 }  // namespace
 
-void validate(const TagDetectorParams& params) {
-  require(find_family(params.family) != nullptr, "tag_family", params.family,
+void TagDetectorParams::validate() const {
+  require(find_family(family) != nullptr, "tag_family", family,
           "tag36h11, tag36h10, tag25h9 or tag16h5");
-  require(params.tag_size > 0 && std::isfinite(params.tag_size), "tag_size", params.tag_size,
-          "finite and > 0 m");
-  require(params.max_hamming >= 0 && params.max_hamming <= 2, "max_hamming", params.max_hamming,
-          "0 .. 2 bits");
-  require(params.min_decision_margin >= 0 && params.min_decision_margin <= 255,
-          "min_decision_margin", params.min_decision_margin, "0 .. 255 grey levels");
-  require(params.quad_decimate >= 1 && params.quad_decimate <= 4, "quad_decimate",
-          params.quad_decimate, "1 .. 4");
-  require(params.min_white_black_diff >= 1 && params.min_white_black_diff <= 255,
-          "min_white_black_diff", params.min_white_black_diff, "1 .. 255 grey levels");
-  validate(params.error_model);
+  require(tag_size > 0 && std::isfinite(tag_size), "tag_size", tag_size, "finite and > 0 m");
+  require_between("max_hamming", max_hamming, 0, 2, "bits");
+  require_between("min_decision_margin", min_decision_margin, 0.0, 255.0, "grey levels");
+  require_between("quad_decimate", quad_decimate, 1.0, 4.0);
+  require_between("min_white_black_diff", min_white_black_diff, 1, 255, "grey levels");
+  error_model.validate();
 }
 
 class TagDetector::Impl {
@@ -152,7 +150,7 @@ class TagDetector::Impl {
 };
 
 TagDetector::TagDetector(const TagDetectorParams& params) {
-  validate(params);
+  params.validate();
   impl_ = std::make_unique<Impl>(params);
 }
 TagDetector::~TagDetector() = default;
@@ -161,7 +159,7 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
 std::vector<TagDetection> TagDetector::detect(const ImageView& image,
                                               const CameraIntrinsics& camera) {
-  validate(camera);
+  camera.validate();
   require(image.data != nullptr, "image data", "null", "given");
   require(image.width == camera.width, "image width", image.width,
           std::to_string(camera.width) + " px, the camera's");

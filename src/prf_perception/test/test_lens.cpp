@@ -101,8 +101,3 @@ TEST(Lens, LeavesAnIdealCameraAlone) {
 
 }  // namespace
 }  // namespace prf_perception
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -93,8 +93,3 @@ TEST(SquarePose, RefusesCornersThatAreNoSquareInFrontOfTheCamera) {
 
 }  // namespace
 }  // namespace prf_perception
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -98,8 +98,3 @@ TEST(StampJoin, StartsANewRunWhenStampsGoBack) {
 
 }  // namespace
 }  // namespace prf_perception
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

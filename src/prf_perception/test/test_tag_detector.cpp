@@ -198,12 +198,12 @@ TEST(TagDetectorParams, NameTheValueThatIsOutOfBounds) {
       {"orientation_floor",
        [](TagDetectorParams& p) { p.error_model.orientation_floor = std::nan(""); }},
   };
-  EXPECT_NO_THROW(validate(good_params()));
+  EXPECT_NO_THROW(good_params().validate());
   for (const auto& bad : catalogue) {
     auto params = good_params();
     bad.spoil(params);
     try {
-      validate(params);
+      params.validate();
       ADD_FAILURE() << bad.name << " was accepted";
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(std::string(error.what()).rfind(bad.name + " = ", 0), 0u) << error.what();
@@ -213,8 +213,3 @@ TEST(TagDetectorParams, NameTheValueThatIsOutOfBounds) {
 
 }  // namespace
 }  // namespace prf_perception
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -20,13 +20,13 @@ struct CameraIntrinsics {
   int width = 0;
   int height = 0;
   std::array<double, 5> distortion{};  // k1, k2, p1, p2, k3
+
+  [[nodiscard]] bool distorts() const;
+
+  // Throws std::invalid_argument naming the value unless sizes and focal lengths are positive and
+  // everything is finite.
+  void validate() const;
 };
-
-[[nodiscard]] bool distorts(const CameraIntrinsics& camera);
-
-// Throws std::invalid_argument naming the value unless sizes and focal lengths are positive and
-// everything is finite.
-void validate(const CameraIntrinsics& camera);
 
 struct ImageView {
   const std::uint8_t* data = nullptr;

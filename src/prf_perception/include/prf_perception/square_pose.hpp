@@ -30,10 +30,9 @@ struct CornerErrorModel {
   double corner_sigma = 0.0;       // of one corner of a square with sides of 100 px, px
   double position_floor = 0.0;     // standard deviation that no view undercuts, m
   double orientation_floor = 0.0;  // the same, rad
-};
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const CornerErrorModel& model);
+  void validate() const;  // throws std::invalid_argument with name, value and bound
+};
 
 // Marker axes: x right, y up, z out of the face; origin at the centre.
 struct SquarePose {

@@ -22,10 +22,9 @@ struct TagDetectorParams {
   double quad_decimate = 0.0;      // squares are searched in the image reduced by this, 1 .. 4
   int min_white_black_diff = 0;    // contrast between face and border, grey levels, 1 .. 255
   CornerErrorModel error_model;
-};
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const TagDetectorParams& params);
+  void validate() const;  // throws std::invalid_argument with name, value and bound
+};
 
 struct TagDetection {
   int id = 0;

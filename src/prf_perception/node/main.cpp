@@ -6,11 +6,12 @@
 #include <sensor_msgs/Image.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <prf_ros/private_parameters.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "conversions.hpp"
-#include "node_params.hpp"
+#include "params.hpp"
 #include "prf_perception/stamp_join.hpp"
 #include "prf_perception/tag_detector.hpp"
 
@@ -21,7 +22,7 @@ namespace encodings = sensor_msgs::image_encodings;
 
 class TagDetectorNode {
  public:
-  TagDetectorNode(ros::NodeHandle node, const NodeParams& params)
+  TagDetectorNode(ros::NodeHandle node, const TagDetectorNodeParams& params)
       : params_(params),
         detector_(params.detector),
         join_(static_cast<std::int64_t>(params.info_wait * 1e9)) {
@@ -113,7 +114,7 @@ class TagDetectorNode {
     status.add("tags with a duplicate id", duplicates_);
   }
 
-  NodeParams params_;
+  TagDetectorNodeParams params_;
   TagDetector detector_;
   Join join_;
   std::size_t images_ = 0;
@@ -134,7 +135,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "tag_detector");
   return prf_ros::run([] {
     prf_perception::TagDetectorNode node(ros::NodeHandle(),
-                                         prf_perception::load(ros::NodeHandle("~")));
+                                         prf_perception::load_params(ros::NodeHandle("~")));
     ros::spin();
   });
 }
