@@ -12,7 +12,7 @@ import rospy
 from geometry_msgs.msg import Pose, PoseStamped
 from prf_msgs.msg import SkillTrajectory
 
-COMMAND = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts", "elte_edit")
+COMMAND = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python", "commands", "elte_edit")
 TURN = [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]  # a quarter about z
 
 

@@ -12,8 +12,7 @@ import elte_planner
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SCRIPTS = os.path.join(HERE, "..", "scripts")
-COMMAND = os.path.join(SCRIPTS, "elte_edit")
+COMMAND = os.path.join(HERE, "..", "python", "commands", "elte_edit")
 DEMONSTRATION = os.path.join(HERE, "reach.csv")
 
 
@@ -122,7 +121,7 @@ class Example(unittest.TestCase):
 class Figures(unittest.TestCase):
     def run_command(self, *arguments):
         return subprocess.run(
-            ["/usr/bin/python3", os.path.join(SCRIPTS, "paper_figures"), *arguments], text=True,
+            ["/usr/bin/python3", os.path.join(HERE, "..", "bench", "paper_figures"), *arguments], text=True,
             timeout=120, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
 
     def test_are_drawn_and_their_numbers_say_what_the_paper_claims(self):
@@ -184,8 +183,8 @@ class Command(unittest.TestCase):
                                    "--out", self.path("solution.json"))
             self.assertEqual(run.returncode, 0, run.stderr)
             with open(self.path("solution.json"), encoding="utf-8") as file:
-                answer = json.load(file)
-            solution = answer["problems"][1] if many else answer
+                content = json.load(file)
+            solution = content["problems"][1] if many else content
             self.assertEqual(solution["status"], "solved")
             self.assertEqual(solution["y"][39], [-1.1, 0.0])
 

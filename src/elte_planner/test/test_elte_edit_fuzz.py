@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The JSON form on damaged problems: an answer that is strict JSON or one line of refusal.
+"""The JSON form on damaged problems: solutions in strict JSON or one line of refusal.
 
 ELTE_PLANNER_FUZZ_INPUTS says how many (default 20000).
 """
@@ -38,24 +38,24 @@ def damaged(text, source):
 
 
 class DamagedProblem(unittest.TestCase):
-    def test_is_answered_or_refused_in_one_line(self):
+    def test_is_solved_or_refused_in_one_line(self):
         inputs = int(os.environ.get("ELTE_PLANNER_FUZZ_INPUTS", "20000"))
         source = random.Random(1)
-        answered = 0
+        solved = 0
         for i in range(inputs):
             text = damaged(PROBLEM if i % 2 else AROUND, source)
             try:
-                answer = problem_json.answer(text)
+                solutions = problem_json.solve_text(text)
             except (ValueError, TypeError, RecursionError) as refusal:
                 self.assertTrue(str(refusal), text)
             except BaseException:
                 print(f"on input {i}: {text}")
                 raise
             else:
-                json.loads(answer, parse_constant=self.fail)
-                answered += 1
-        self.assertGreater(answered, inputs // 50)
-        self.assertLess(answered, inputs // 2)
+                json.loads(solutions, parse_constant=self.fail)
+                solved += 1
+        self.assertGreater(solved, inputs // 50)
+        self.assertLess(solved, inputs // 2)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Demonstrations from bags. Needs rosbag only when a bag is read."""
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from elte_planner._core import Demonstration
 
@@ -27,21 +28,12 @@ def _expect(messages, kind, path, topic):
         raise ValueError(f"{path}: topic '{topic}' is a {messages[0]._type}, must be a {kind}")
 
 
-def _rotation(x, y, z, w):
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
 def _target_of_plan(last, goal_in_target):
     """Target T with T * goal_in_target = last, all x y z qx qy qz qw."""
-    ax, ay, az, aw = last[3:]
-    bx, by, bz, bw = [-goal_in_target[3], -goal_in_target[4], -goal_in_target[5],
-                      goal_in_target[6]]
-    turn = np.array([aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-                     aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz])
-    turn /= np.linalg.norm(turn)
-    return np.concatenate([last[:3] - _rotation(*turn) @ goal_in_target[:3], turn])
+    turn = Rotation.from_quat(last[3:]) * Rotation.from_quat(goal_in_target[3:]).inv()
+    quaternion = turn.as_quat()  # of either sign; that with w >= 0 is taken
+    return np.concatenate([last[:3] - turn.apply(goal_in_target[:3]),
+                           np.copysign(1.0, quaternion[3]) * quaternion])
 
 
 def load_bag(path, topic, target_topic=None):
@@ -61,7 +53,7 @@ def load_bag(path, topic, target_topic=None):
         frame = plans[-1].header.frame_id
         times = [duration.to_sec() for duration in plans[-1].time_from_start]
         rows = np.array([_row(pose) for pose in plans[-1].poses])
-        target = _target_of_plan(rows[-1], np.array(_row(plans[-1].goal_in_target)))
+        goal_in_target = np.array(_row(plans[-1].goal_in_target))
     else:
         _expect(messages, "geometry_msgs/PoseStamped", path, topic)
         frame = messages[0].header.frame_id
@@ -70,15 +62,18 @@ def load_bag(path, topic, target_topic=None):
         start = messages[0].header.stamp
         times = [(message.header.stamp - start).to_sec() for message in messages]
         rows = np.array([_row(message.pose) for message in messages])
-        target = rows[-1]
+        goal_in_target = np.array([0, 0, 0, 0, 0, 0, 1])
+    target = None
     if target_topic is not None:
-        seen = _messages(path, target_topic)
-        _expect(seen, "geometry_msgs/PoseStamped", path, target_topic)
-        if seen[-1].header.frame_id != frame:
+        targets = _messages(path, target_topic)
+        _expect(targets, "geometry_msgs/PoseStamped", path, target_topic)
+        if targets[-1].header.frame_id != frame:
             raise ValueError(f"{path}: topic '{target_topic}' is in frame "
-                             f"'{seen[-1].header.frame_id}', must be in '{frame}'")
-        target = np.array(_row(seen[-1].pose))
+                             f"'{targets[-1].header.frame_id}', must be in '{frame}'")
+        target = np.array(_row(targets[-1].pose))
     try:
+        if target is None:
+            target = _target_of_plan(rows[-1], goal_in_target)
         return Demonstration(np.array(times), rows[:, :3], rows[:, 3:], frame, topic, target)
     except ValueError as error:
         raise ValueError(f"{path}: topic '{topic}': {error}") from None

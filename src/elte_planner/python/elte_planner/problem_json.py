@@ -1,5 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The JSON form of problems and solutions that the package's README describes."""
+"""Problems and solutions of elte_planner.solve() and avoid() as JSON.
+
+A problem is an object, a list of them, or {"problems": [...]}:
+
+  zeta                      demonstration, T rows of d numbers
+  wE, wR                    weights of the squared first and second differences
+  laplacian                 free_ends (default, also authors) or row_normalised
+  n_fixed, y_fixed          number of leading rows that are given, and these rows (default none)
+  constraints               list of {"j": node, "p": [...], "r": radius}     l1 ball, 0: equality
+                            {"j", "p", "half_widths": [...]}                 box
+                            {"j", "p", "normal": [...]}                      normal . (y_j - p) <= 0
+  max_step, max_first_step  optional bounds on the l1 norm of the steps
+  obstacles, clearance      optional list of {"centre": [...], "radius": r} and
+                            {"centre", "half_widths": [...]}; the polyline keeps the clearance
+
+A solution has name, status (solved, infeasible, ill_posed, iteration_limit; with obstacles also
+not_found), message, y, objective, kkt_residual, solve_time_s, and forces and active of the
+constraints or, with obstacles, the clearance found.
+"""
 import json
 import time
 
@@ -8,8 +26,8 @@ import numpy as np
 import elte_planner
 
 
-def answer(text):
-    """The solutions, as JSON, of the problems in a text. Raises ValueError or TypeError with one
+def solve_text(text):
+    """The solutions, as JSON, of the problems in a JSON text. Raises ValueError or TypeError with one
     line of reason, RecursionError for a text nested too deep."""
     content = json.loads(text)
     if isinstance(content, dict) and "problems" in content:

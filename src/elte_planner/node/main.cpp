@@ -8,7 +8,7 @@
 #include "conversions.hpp"
 #include "elte_planner/followed_skill.hpp"
 #include "elte_planner/request_queue.hpp"
-#include "node_params.hpp"
+#include "params.hpp"
 
 namespace elte_planner {
 namespace {

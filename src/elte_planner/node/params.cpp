@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "node_params.hpp"
+#include "params.hpp"
 
 #include <prf_ros/private_parameters.hpp>
 
