@@ -53,8 +53,7 @@ Labels to_python(const std::vector<Intent>& states) {
 }
 
 // What the node believes after each observation, and ln P of all.
-std::pair<Velocities, double> filter(const HmmParameters& parameters,
-                                     const Velocities& velocities) {
+std::pair<Velocities, double> filter(const HmmParams& parameters, const Velocities& velocities) {
   const HmmFilter hmm(parameters);
   HmmBelief belief = hmm.initial_belief();
   Velocities posterior(velocities.rows(), 3);
@@ -68,7 +67,7 @@ std::pair<Velocities, double> filter(const HmmParameters& parameters,
 
 Learned learn_runs(const std::vector<std::pair<Velocities, Labels>>& runs, int restarts,
                    std::uint32_t seed, bool free_means, const OnIteration& on_iteration) {
-  LearningOptions options;
+  LearningParams options;
   options.restarts = restarts;
   options.seed = seed;
   options.free_means = free_means;
@@ -82,13 +81,13 @@ PYBIND11_MODULE(prf_decision, module) {
   using namespace prf_decision;
   module.attr("STATES") = std::vector<std::string>(kIntentNames.begin(), kIntentNames.end());
 
-  py::class_<HmmParameters>(module, "HmmParameters")
+  py::class_<HmmParams>(module, "HmmParams")
       .def(py::init<>())
-      .def_readwrite("initial", &HmmParameters::initial)
-      .def_readwrite("transition", &HmmParameters::transition)
-      .def_readwrite("mean", &HmmParameters::mean)
-      .def_readwrite("covariance", &HmmParameters::covariance)
-      .def("validate", &HmmParameters::validate);
+      .def_readwrite("initial", &HmmParams::initial)
+      .def_readwrite("transition", &HmmParams::transition)
+      .def_readwrite("mean", &HmmParams::mean)
+      .def_readwrite("covariance", &HmmParams::covariance)
+      .def("validate", &HmmParams::validate);
   py::class_<Learned>(module, "Learned")
       .def_readonly("parameters", &Learned::parameters)
       .def_readonly("log_likelihood", &Learned::log_likelihood)
@@ -101,7 +100,7 @@ PYBIND11_MODULE(prf_decision, module) {
   module.def("filter", &filter, py::arg("parameters"), py::arg("velocities"));
   module.def(
       "most_probable_path",
-      [](const HmmParameters& parameters, const Velocities& velocities) {
+      [](const HmmParams& parameters, const Velocities& velocities) {
         const StatePath path = most_probable_path(parameters, to_core(velocities, {}));
         return std::pair(to_python(path.states), path.log_probability);
       },
@@ -110,7 +109,7 @@ PYBIND11_MODULE(prf_decision, module) {
              py::arg("free_means") = false, py::arg("on_iteration") = OnIteration());
   module.def(
       "draw",
-      [](const HmmParameters& parameters, std::size_t observations, std::uint32_t seed) {
+      [](const HmmParams& parameters, std::size_t observations, std::uint32_t seed) {
         const Sequence run = draw(parameters, observations, seed);
         Velocities velocities(static_cast<Eigen::Index>(run.size()), 3);
         std::vector<Intent> states;

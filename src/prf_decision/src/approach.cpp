@@ -17,7 +17,7 @@ Pose in_frame(const Pose& frame, const Pose& pose) {
 
 // A frame that moves within a moving carrier.
 MovingPose carried(const MovingPose& carrier, const MovingPose& frame_in_carrier) {
-  MovingPose frame = attached(carrier, frame_in_carrier.pose);
+  MovingPose frame = prf_core::rigidly_attached(carrier, frame_in_carrier.pose);
   frame.linear_velocity += carrier.pose.orientation * frame_in_carrier.linear_velocity;
   frame.angular_velocity += carrier.pose.orientation * frame_in_carrier.angular_velocity;
   return frame;
@@ -25,14 +25,16 @@ MovingPose carried(const MovingPose& carrier, const MovingPose& frame_in_carrier
 
 }  // namespace
 
-void Approach::take(const Trajectory& plan, double cursor, Stamp stamp, const Forecast& forecast) {
+void Approach::take(const Trajectory& plan, double cursor, Stamp stamp,
+                    const TargetForecast& forecast) {
   const Duration elapsed = plan.times.back() - time_to_go(plan, cursor);
   std::vector<Pose> anchors(plan.poses.size());
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     const bool kept = k < plan_.poses.size() && same(plan.poses[k], plan_.poses[k]);
     const Duration ahead = std::max(plan.times[k] - elapsed, Duration{0});
     anchors[k] =
-        kept ? anchors_.poses[k] : in_frame(target_at(forecast, stamp + ahead).pose, plan.poses[k]);
+        kept ? anchors_.poses[k]
+             : in_frame(predicted_target(forecast, stamp + ahead).target.pose, plan.poses[k]);
   }
   plan_ = plan;
   anchors_ = {std::move(anchors), plan.times, plan.goal_in_target};

@@ -2,7 +2,8 @@
 #include "prf_decision/decision.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <cmath>
+#include <prf_core/require.hpp>
 #include <utility>
 
 #include "text.hpp"
@@ -10,12 +11,7 @@
 namespace prf_decision {
 namespace {
 
-void require(bool holds, const char* name, double value, const char* bound) {
-  if (!holds) {
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + ", must be " +
-                                bound);
-  }
-}
+using prf_core::require;
 
 Objection hazard(std::string reason) { return {Event::kHazard, std::move(reason)}; }
 
@@ -35,8 +31,8 @@ bool acts_on_plan(State state) {
   return state == State::kForward || state == State::kReverse || state == State::kRetract;
 }
 
-MovingPose goal_at(const Forecast& forecast, const Trajectory& plan, Stamp stamp) {
-  return attached(target_at(forecast, stamp), plan.goal_in_target);
+MovingPose goal_at(const TargetForecast& forecast, const Trajectory& plan, Stamp stamp) {
+  return prf_core::rigidly_attached(predicted_target(forecast, stamp).target, plan.goal_in_target);
 }
 
 bool are_near(const Pose& a, const Pose& b, double distance) {
@@ -55,31 +51,29 @@ bool explains_itself(State state) {
 
 }  // namespace
 
-void DecisionParameters::validate() const {
-  require(max_gap > Duration{0}, "max_wait", to_seconds(max_gap), "> 0");
-  require(lead >= Duration{0}, "lead", to_seconds(lead), ">= 0");
-  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0");
-  require(dwell_time >= Duration{0}, "dwell_time", to_seconds(dwell_time), ">= 0");
-  require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0");
+void DecisionParams::validate() const {
+  require(max_gap > Duration{0}, "max_wait", to_seconds(max_gap), "> 0 s");
+  require(lead >= Duration{0}, "lead", to_seconds(lead), ">= 0 s");
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
+  require(dwell_time >= Duration{0}, "dwell_time", to_seconds(dwell_time), ">= 0 s");
+  require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0 s");
   require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
-          tracking_tolerance, "> 0");
+          tracking_tolerance, "> 0 m and finite");
   require(approach_length >= 0 && std::isfinite(approach_length), "approach_length",
-          approach_length, ">= 0");
+          approach_length, ">= 0 m and finite");
   catch_up.validate();
   guards.validate();
   hmm.validate();
 }
 
 void Order::validate() const {
-  require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0");
-  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0");
-  if (resume && !demonstration.empty()) {
-    throw std::invalid_argument("demonstration is '" + demonstration +
-                                "', must be empty with resume, which goes on with the one before");
-  }
+  require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0 s");
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
+  require(!resume || demonstration.empty(), "demonstration", demonstration,
+          "empty with resume, which goes on with the one before");
 }
 
-Decision::Decision(const DecisionParameters& parameters)
+Decision::Decision(const DecisionParams& parameters)
     : parameters_((parameters.validate(), parameters)),
       hmm_(parameters.hmm),
       belief_(hmm_.initial_belief()) {
@@ -99,7 +93,7 @@ void Decision::begin(const Order& order) {
   preempted_ = false;
 }
 
-void Decision::tune(const DecisionParameters& parameters) {
+void Decision::tune(const DecisionParams& parameters) {
   parameters.validate();
   const bool framework = parameters_.framework;
   parameters_ = parameters;
@@ -305,7 +299,7 @@ void Decision::follow_target(const Tick& tick) {
   const TargetStatus status = forecast_->status;
   if (status != TargetStatus::kTracking && status != TargetStatus::kCoasting) return;
   if (object_to_forecast(parameters_.guards, *forecast_)) return;
-  approached_ = target_at(*forecast_, tick.stamp + parameters_.lead);
+  approached_ = predicted_target(*forecast_, tick.stamp + parameters_.lead).target;
 }
 
 bool Decision::is_bound_to_target() const {

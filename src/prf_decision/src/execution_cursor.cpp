@@ -2,9 +2,7 @@
 #include "prf_decision/execution_cursor.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-
-#include "hermite.hpp"
+#include <prf_core/require.hpp>
 
 namespace prf_decision {
 namespace {
@@ -19,10 +17,7 @@ struct Segment {
 };
 
 Segment segment_at(const Trajectory& trajectory, double cursor) {
-  if (!(cursor >= 0) || cursor > last_node(trajectory)) {
-    throw std::invalid_argument("cursor is " + std::to_string(cursor) + ", must be in 0 .. " +
-                                std::to_string(last_node(trajectory)));
-  }
+  prf_core::require_between("cursor", cursor, 0, last_node(trajectory), "nodes");
   const std::size_t node = std::min(static_cast<std::size_t>(cursor), trajectory.poses.size() - 2);
   return {node, cursor - static_cast<double>(node)};
 }
@@ -72,7 +67,7 @@ MovingPose hand_at(const Trajectory& trajectory, double cursor, Direction direct
   const MovingPose start{trajectory.poses[node], arriving, {0, 0, 0}};
   const MovingPose end{trajectory.poses[node + 1], chord_velocity(trajectory, node), {0, 0, 0}};
   const double seconds = to_seconds(span(trajectory, node));
-  MovingPose hand = hermite(start, end, seconds, fraction * seconds);
+  MovingPose hand = prf_core::interpolate(start, end, seconds, fraction * seconds);
   const double sign = static_cast<double>(static_cast<int>(direction));
   hand.linear_velocity *= sign;
   hand.angular_velocity *= sign;

@@ -1,38 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/guards.hpp"
 
+#include <cmath>
 #include <jaco_kinematics/jaco_kinematics.hpp>
-#include <stdexcept>
+#include <prf_core/require.hpp>
 
 #include "text.hpp"
 
 namespace prf_decision {
-namespace {
 
-void require(bool holds, const std::string& name, double value, const std::string& bound) {
-  if (!holds) {
-    throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be " + bound);
+using prf_core::require;
+
+void GuardParams::validate() const {
+  prf_core::require_positive("coast_limits[0]", to_seconds(pause_after), "s");
+  require(reverse_after > pause_after, "coast_limits[1]", to_seconds(reverse_after),
+          "> coast_limits[0] = " + std::to_string(to_seconds(pause_after)) + " s");
+  require(stop_after > reverse_after, "coast_limits[2]", to_seconds(stop_after),
+          "> coast_limits[1] = " + std::to_string(to_seconds(reverse_after)) + " s");
+  require(shoulder.allFinite(), "shoulder", shoulder.transpose(), "finite");
+  for (const auto& [name, value] :
+       {std::pair("max_reach", max_reach), std::pair("workspace_radius", workspace_radius),
+        std::pair("max_target_speed", max_target_speed)}) {
+    require(value > 0 && std::isfinite(value), name, value, "> 0 and finite");
   }
 }
 
-void require_positive(double value, const std::string& name) {
-  require(value > 0 && std::isfinite(value), name, value, "> 0");
-}
-
-}  // namespace
-
-void GuardParameters::validate() const {
-  require_positive(to_seconds(pause_after), "coast_limits[0]");
-  require(reverse_after > pause_after, "coast_limits[1]", to_seconds(reverse_after),
-          "> coast_limits[0] = " + std::to_string(to_seconds(pause_after)));
-  require(stop_after > reverse_after, "coast_limits[2]", to_seconds(stop_after),
-          "> coast_limits[1] = " + std::to_string(to_seconds(reverse_after)));
-  require_positive(max_reach, "max_reach");
-  require_positive(workspace_radius, "workspace_radius");
-  require_positive(max_target_speed, "max_target_speed");
-}
-
-std::optional<Objection> object_to_age(const GuardParameters& guards, Duration age) {
+std::optional<Objection> object_to_age(const GuardParams& guards, Duration age) {
   const auto unseen = [&](Event event, Duration limit) {
     return Objection{event, sentence("target unseen for ", to_seconds(age), " s, limit ",
                                      to_seconds(limit), " s")};
@@ -43,10 +36,10 @@ std::optional<Objection> object_to_age(const GuardParameters& guards, Duration a
   return std::nullopt;
 }
 
-std::optional<Objection> object_to_forecast(const GuardParameters& guards,
-                                            const Forecast& forecast) {
-  for (const auto& [horizon, target] : forecast.predictions) {
-    const double distance = (target.pose.position - kShoulder).norm();
+std::optional<Objection> object_to_forecast(const GuardParams& guards,
+                                            const TargetForecast& forecast) {
+  for (const auto& [horizon, target, covariance] : forecast.predictions) {
+    const double distance = (target.pose.position - guards.shoulder).norm();
     if (distance > guards.workspace_radius) {
       return Objection{Event::kHazard,
                        sentence("forecast ", distance, " m from the shoulder in ",
@@ -62,8 +55,8 @@ std::optional<Objection> object_to_forecast(const GuardParameters& guards,
   return std::nullopt;
 }
 
-std::optional<Objection> object_to_goal(const GuardParameters& guards, const Pose& hand_goal) {
-  const double distance = (hand_goal.position - kShoulder).norm();
+std::optional<Objection> object_to_goal(const GuardParams& guards, const Pose& hand_goal) {
+  const double distance = (hand_goal.position - guards.shoulder).norm();
   if (distance > guards.max_reach) {
     return Objection{Event::kHazard, sentence("goal ", distance, " m from the shoulder, reach ",
                                               guards.max_reach, " m")};

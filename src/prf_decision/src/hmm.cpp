@@ -61,7 +61,7 @@ void validate_reachable(const Eigen::Matrix3d& transition) {
 
 }  // namespace
 
-void HmmParameters::validate() const {
+void HmmParams::validate() const {
   validate_distribution(initial, "initial");
   for (std::size_t i = 0; i < kIntents; ++i) {
     validate_distribution(transition.row(static_cast<Eigen::Index>(i)).transpose(),
@@ -81,11 +81,11 @@ void HmmParameters::validate() const {
   }
 }
 
-double mean_square_speed(const HmmParameters& parameters, std::size_t state) {
+double mean_square_speed(const HmmParams& parameters, std::size_t state) {
   return parameters.mean[state].squaredNorm() + parameters.covariance[state].trace();
 }
 
-EmissionModel::EmissionModel(const HmmParameters& parameters) : mean_(parameters.mean) {
+EmissionModel::EmissionModel(const HmmParams& parameters) : mean_(parameters.mean) {
   for (std::size_t i = 0; i < kIntents; ++i) {
     validate_covariance(parameters.covariance[i], std::string("covariance.") + kIntentNames[i]);
     const Eigen::Matrix3d lower = parameters.covariance[i].llt().matrixL();
@@ -105,7 +105,7 @@ Eigen::Vector3d EmissionModel::log_density(const Eigen::Vector3d& velocity) cons
   return result;
 }
 
-HmmFilter::HmmFilter(const HmmParameters& parameters)
+HmmFilter::HmmFilter(const HmmParams& parameters)
     : parameters_((parameters.validate(), parameters)), emission_(parameters) {}
 
 HmmBelief HmmFilter::initial_belief() const { return {parameters_.initial, false, 0}; }

@@ -62,13 +62,13 @@ Eigen::Matrix3d matrix(const YAML::Node& node, const std::string& name) {
   return rows;
 }
 
-HmmParameters parse(const YAML::Node& root) {
+HmmParams parse(const YAML::Node& root) {
   const Keys intents{kIntentNames[0], kIntentNames[1], kIntentNames[2]};
   require_keys(root, "the file", {"initial", "transition", "mean", "covariance"});
   for (const char* key : {"initial", "transition", "mean", "covariance"}) {
     require_keys(root[key], key, intents);
   }
-  HmmParameters parameters;
+  HmmParams parameters;
   for (std::size_t i = 0; i < kIntents; ++i) {
     const std::string intent = kIntentNames[i];
     const auto row = static_cast<Eigen::Index>(i);
@@ -86,7 +86,7 @@ const Eigen::IOFormat kList(17, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "
 
 }  // namespace
 
-HmmParameters load_hmm(const std::string& path) {
+HmmParams load_hmm(const std::string& path) {
   try {
     return parse(YAML::LoadFile(path));
   } catch (const YAML::BadFile&) {
@@ -98,7 +98,7 @@ HmmParameters load_hmm(const std::string& path) {
   }
 }
 
-std::string hmm_text(const HmmParameters& parameters, const std::string& comment) {
+std::string hmm_text(const HmmParams& parameters, const std::string& comment) {
   parameters.validate();
   std::ostringstream text;
   text << std::setprecision(17);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <prf_core/require.hpp>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -67,11 +68,11 @@ Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
 }
 
 // The first one spreads the states evenly over the speeds, the others at random.
-HmmParameters first_guess(const Eigen::Matrix3d& moment, bool free_means, int restart,
-                          std::mt19937& random) {
+HmmParams first_guess(const Eigen::Matrix3d& moment, bool free_means, int restart,
+                      std::mt19937& random) {
   std::array<double, kIntents> size{0.3, 0.8, 1.6};
   double stay = 0.9;
-  HmmParameters guess;
+  HmmParams guess;
   for (Eigen::Vector3d& mean : guess.mean) mean.setZero();
   if (restart > 0) {
     std::uniform_real_distribution<double> log_size(std::log(0.1), std::log(3.0));
@@ -93,12 +94,12 @@ HmmParameters first_guess(const Eigen::Matrix3d& moment, bool free_means, int re
   return guess;
 }
 
-HmmParameters in_order_of_speed(const HmmParameters& parameters) {
+HmmParams in_order_of_speed(const HmmParams& parameters) {
   std::array<std::size_t, kIntents> order{0, 1, 2};
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return mean_square_speed(parameters, a) < mean_square_speed(parameters, b);
   });
-  HmmParameters sorted;
+  HmmParams sorted;
   for (std::size_t i = 0; i < kIntents; ++i) {
     const auto to = static_cast<Eigen::Index>(i);
     const auto from = static_cast<Eigen::Index>(order[i]);
@@ -113,8 +114,8 @@ HmmParameters in_order_of_speed(const HmmParameters& parameters) {
   return sorted;
 }
 
-Learned climb(HmmParameters parameters, const std::vector<Sequence>& runs,
-              const LearningOptions& options, int restart, const OnIteration& on_iteration) {
+Learned climb(HmmParams parameters, const std::vector<Sequence>& runs,
+              const LearningParams& options, int restart, const OnIteration& on_iteration) {
   const double observations = std::accumulate(
       runs.begin(), runs.end(), 0.0,
       [](double sum, const Sequence& run) { return sum + static_cast<double>(run.size()); });
@@ -137,19 +138,14 @@ Learned climb(HmmParameters parameters, const std::vector<Sequence>& runs,
 
 }  // namespace
 
-void LearningOptions::validate() const {
-  const auto require = [](bool holds, const char* name, double value, const char* bound) {
-    if (holds) return;
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + ", must be " +
-                                bound);
-  };
+void LearningParams::validate() const {
+  using prf_core::require;
   require(restarts >= 1 && restarts <= 1000, "restarts", restarts, "1 .. 1000");
   require(max_iterations >= 2, "max_iterations", max_iterations, "at least 2");
   require(tolerance > 0 && std::isfinite(tolerance), "tolerance", tolerance, "> 0");
 }
 
-EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& runs,
-               bool free_means) {
+EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs, bool free_means) {
   std::vector<Eigen::Matrix3Xd> posterior;
   Totals totals;
   for (Eigen::Vector3d& sum : totals.sum) sum.setZero();
@@ -168,7 +164,7 @@ EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& run
   });
 
   EmStep step{parameters, totals.log_likelihood};
-  HmmParameters& next = step.parameters;
+  HmmParams& next = step.parameters;
   next.initial = totals.first / totals.first.sum();
   next.transition = row_shares(totals.transitions, parameters.transition);
   for (std::size_t i = 0; i < kIntents; ++i) {
@@ -190,7 +186,7 @@ EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& run
   return step;
 }
 
-Learned learn(const std::vector<Sequence>& runs, const LearningOptions& options,
+Learned learn(const std::vector<Sequence>& runs, const LearningParams& options,
               const OnIteration& on_iteration) {
   options.validate();
   const Eigen::Matrix3d moment = pooled_moment(runs);
@@ -198,7 +194,7 @@ Learned learn(const std::vector<Sequence>& runs, const LearningOptions& options,
   Learned best;
   std::vector<std::string> refused;
   for (int restart = 0; restart < options.restarts; ++restart) {
-    const HmmParameters guess = first_guess(moment, options.free_means, restart, random);
+    const HmmParams guess = first_guess(moment, options.free_means, restart, random);
     try {
       Learned learned = climb(guess, runs, options, restart, on_iteration);
       const bool better =

@@ -14,7 +14,7 @@ namespace {
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 // Column k: ln b(o_k), with the excluded states at -infinity.
-Eigen::Matrix3Xd log_densities(const HmmParameters& parameters, const Sequence& sequence) {
+Eigen::Matrix3Xd log_densities(const HmmParams& parameters, const Sequence& sequence) {
   if (sequence.empty()) throw std::invalid_argument("the sequence has no observations");
   const EmissionModel emission(parameters);
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(sequence.size()));
@@ -45,7 +45,7 @@ Eigen::Index draw_from(const Eigen::Vector3d& probabilities, double uniform) {
 
 }  // namespace
 
-Smoothing smooth(const HmmParameters& parameters, const Sequence& sequence) {
+Smoothing smooth(const HmmParams& parameters, const Sequence& sequence) {
   const Eigen::Matrix3Xd log_density = log_densities(parameters, sequence);
   const Eigen::Index n = log_density.cols();
   const Eigen::Matrix3d& a = parameters.transition;
@@ -76,7 +76,7 @@ Smoothing smooth(const HmmParameters& parameters, const Sequence& sequence) {
   return result;
 }
 
-StatePath most_probable_path(const HmmParameters& parameters, const Sequence& sequence) {
+StatePath most_probable_path(const HmmParams& parameters, const Sequence& sequence) {
   const Eigen::Matrix3Xd log_density = log_densities(parameters, sequence);
   const Eigen::Index n = log_density.cols();
   const Eigen::Matrix3d log_transition = parameters.transition.array().log();
@@ -103,7 +103,7 @@ StatePath most_probable_path(const HmmParameters& parameters, const Sequence& se
   return path;
 }
 
-Sequence draw(const HmmParameters& parameters, std::size_t observations, std::uint32_t seed) {
+Sequence draw(const HmmParams& parameters, std::size_t observations, std::uint32_t seed) {
   parameters.validate();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform;

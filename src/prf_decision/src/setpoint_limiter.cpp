@@ -3,24 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <prf_core/require.hpp>
 
 namespace prf_decision {
 namespace {
 
-void require_positive(double value, const char* name) {
-  if (!(value > 0) || !std::isfinite(value)) {
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                ", must be > 0");
-  }
+void require_positive(const char* name, double value) {
+  prf_core::require(value > 0 && std::isfinite(value), name, value, "> 0 and finite");
 }
 
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& orientation, const Eigen::Vector3d& rotation) {
-  const double angle = rotation.norm();
-  if (angle == 0) return orientation;
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, rotation / angle));
-  return (turn * orientation).normalized();
+  if (rotation.norm() == 0) return orientation;
+  return (Eigen::Quaterniond(prf_core::exp_so3(rotation)) * orientation).normalized();
 }
 
 // Velocity that closes the gap within the rule's bounds.
@@ -28,20 +22,20 @@ Eigen::Vector3d closing_velocity(const Eigen::Vector3d& gap, double speed, doubl
                                  double seconds) {
   const double distance = gap.norm();
   if (distance == 0 || seconds <= 0) return Eigen::Vector3d::Zero();
-  const double share = -std::expm1(-seconds / time_constant);
-  return gap * std::min(share / seconds, speed / distance);
+  const double fraction = -std::expm1(-seconds / time_constant);
+  return gap * std::min(fraction / seconds, speed / distance);
 }
 
 }  // namespace
 
-void CatchUp::validate() const {
-  require_positive(linear, "catch_up_speed linear");
-  require_positive(angular, "catch_up_speed angular");
-  require_positive(time_constant, "catch_up_time");
+void CatchUpParams::validate() const {
+  require_positive("catch_up_speed linear", linear);
+  require_positive("catch_up_speed angular", angular);
+  require_positive("catch_up_time", time_constant);
 }
 
 MovingPose limited_setpoint(const Pose& previous, const MovingPose& reference,
-                            const CatchUp& catch_up, Duration dt) {
+                            const CatchUpParams& catch_up, Duration dt) {
   const double seconds = to_seconds(dt);
   MovingPose setpoint = reference;
 
@@ -54,8 +48,8 @@ MovingPose limited_setpoint(const Pose& previous, const MovingPose& reference,
   const Eigen::Quaterniond turned =
       rotated(previous.orientation, reference.angular_velocity * seconds);
   const Eigen::Vector3d turning =
-      closing_velocity(rotation_between(turned, reference.pose.orientation), catch_up.angular,
-                       catch_up.time_constant, seconds);
+      closing_velocity(prf_core::rotation_between(turned, reference.pose.orientation),
+                       catch_up.angular, catch_up.time_constant, seconds);
   setpoint.pose.orientation = rotated(turned, turning * seconds);
   setpoint.angular_velocity += turning;
   return setpoint;

@@ -2,8 +2,7 @@
 #include "prf_decision/tick_gate.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
+#include <prf_core/require.hpp>
 #include <utility>
 
 namespace prf_decision {
@@ -16,13 +15,6 @@ constexpr Duration kPeriodMargin = milliseconds(5);  // jitter of the camera's s
 constexpr Duration kClockJump = seconds(1);          // larger steps are another run or garbage
 constexpr std::size_t kMaxQueued = 1000;             // forecasts and answers without any tick
 
-void require_positive(Duration value, const char* name) {
-  if (value <= Duration{0}) {
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(to_seconds(value)) +
-                                " s, must be > 0");
-  }
-}
-
 template <typename Item>
 void enqueue(std::deque<Item>& queue, Item item) {
   queue.push_back(std::move(item));
@@ -31,13 +23,14 @@ void enqueue(std::deque<Item>& queue, Item item) {
 
 }  // namespace
 
-void GateParameters::validate() const {
-  require_positive(pipeline_delay, "pipeline_delay");
-  require_positive(camera_period - kPeriodMargin, "camera_period less 5 ms");
-  require_positive(max_wait, "max_wait");
+void GateParams::validate() const {
+  using prf_core::require_positive;
+  require_positive("pipeline_delay", to_seconds(pipeline_delay), "s");
+  require_positive("camera_period less 5 ms", to_seconds(camera_period - kPeriodMargin), "s");
+  require_positive("max_wait", to_seconds(max_wait), "s");
 }
 
-TickGate::TickGate(const GateParameters& parameters) : parameters_(parameters) {
+TickGate::TickGate(const GateParams& parameters) : parameters_(parameters) {
   parameters_.validate();
 }
 

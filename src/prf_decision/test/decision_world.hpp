@@ -23,8 +23,7 @@ inline const Eigen::Vector3d kStill(0, 0, 0);
 // after it the same plan again.
 class World {
  public:
-  explicit World(const DecisionParameters& parameters = usual_parameters())
-      : decision_(parameters) {}
+  explicit World(const DecisionParams& parameters = usual_params()) : decision_(parameters) {}
 
   Outcome tick() {
     Tick tick;
@@ -33,7 +32,7 @@ class World {
     tick.forecast_stale = forecast_stale;
     tick.plan_stale = plan_stale;
     if (count_ % 3 == 0 && !forecast_stale) {
-      auto seen = std::make_shared<Forecast>(
+      auto seen = std::make_shared<TargetForecast>(
           forecast_of(now_ - from_seconds(0.06), position, velocity, status));
       if (status != TargetStatus::kTracking) seen->since_measurement = seen->stamp - last_seen_;
       if (status == TargetStatus::kNoTarget) seen->predictions.clear();

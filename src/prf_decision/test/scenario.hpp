@@ -23,23 +23,24 @@ inline Trajectory straight_skill() {
   return skill;
 }
 
-inline Forecast forecast_of(Stamp stamp, const Eigen::Vector3d& position,
-                            const Eigen::Vector3d& velocity,
-                            TargetStatus status = TargetStatus::kTracking) {
-  Forecast forecast;
+inline TargetForecast forecast_of(Stamp stamp, const Eigen::Vector3d& position,
+                                  const Eigen::Vector3d& velocity,
+                                  TargetStatus status = TargetStatus::kTracking) {
+  TargetForecast forecast;
   forecast.stamp = stamp;
   forecast.status = status;
   for (const double horizon : {0.0, 0.1, 0.5}) {
-    MovingPose target;
-    target.pose.position = position + velocity * horizon;
-    target.linear_velocity = velocity;
-    forecast.predictions.push_back({from_seconds(horizon), target});
+    prf_core::TargetPrediction prediction;
+    prediction.horizon = from_seconds(horizon);
+    prediction.target.pose.position = position + velocity * horizon;
+    prediction.target.linear_velocity = velocity;
+    forecast.predictions.push_back(prediction);
   }
   return forecast;
 }
 
-inline HmmParameters usual_hmm() {
-  HmmParameters hmm;
+inline HmmParams usual_hmm() {
+  HmmParams hmm;
   hmm.initial << 0.8, 0.15, 0.05;
   hmm.transition << 0.97, 0.03, 0, 0.015, 0.97, 0.015, 0, 0.03, 0.97;
   const std::array<double, kIntents> sigma{0.10, 0.19, 0.36};
@@ -51,8 +52,8 @@ inline HmmParameters usual_hmm() {
 }
 
 // A model without symmetries: correlated axes, means that differ, every transition possible.
-inline HmmParameters skewed_hmm() {
-  HmmParameters hmm;
+inline HmmParams skewed_hmm() {
+  HmmParams hmm;
   hmm.initial << 0.5, 0.3, 0.2;
   hmm.transition << 0.7, 0.2, 0.1, 0.25, 0.6, 0.15, 0.05, 0.35, 0.6;
   hmm.mean = {Eigen::Vector3d{0.01, 0, -0.02}, Eigen::Vector3d{0.1, 0.05, 0},
@@ -63,19 +64,20 @@ inline HmmParameters skewed_hmm() {
   return hmm;
 }
 
-inline GuardParameters usual_guards() {
-  GuardParameters guards;
+inline GuardParams usual_guards() {
+  GuardParams guards;
   guards.pause_after = from_seconds(0.3);
   guards.reverse_after = from_seconds(1.0);
   guards.stop_after = from_seconds(2.0);
+  guards.shoulder = {0, 0, 0.2755};
   guards.max_reach = 0.95;
   guards.workspace_radius = 2.0;
   guards.max_target_speed = 1.5;
   return guards;
 }
 
-inline DecisionParameters usual_parameters() {
-  DecisionParameters parameters;
+inline DecisionParams usual_params() {
+  DecisionParams parameters;
   parameters.max_gap = from_seconds(0.3);
   parameters.lead = from_seconds(0.02);
   parameters.hold_time = from_seconds(1.0);

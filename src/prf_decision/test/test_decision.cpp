@@ -89,7 +89,7 @@ TEST(Decision, PausesAndGoesBackAsTheTargetQuickens) {
 }
 
 TEST(Decision, StaysWithTheTargetWhilePausedOnTheApproach) {
-  DecisionParameters parameters = usual_parameters();
+  DecisionParams parameters = usual_params();
   parameters.approach_length = 0.1;
   World world(parameters);
   world.until(State::kForward, 0.1);
@@ -113,12 +113,12 @@ TEST(Decision, StaysWithTheTargetWhilePausedOnTheApproach) {
 TEST(Approach, IsThePlanWhileTheTargetMovesAsForecastAndTheTargetsWhereItDoesNot) {
   const Trajectory plan = straight_skill();
   const Stamp start = from_seconds(5);
-  const Forecast forecast = forecast_of(start, kTarget, {0.1, 0.2, 0});
+  const TargetForecast forecast = forecast_of(start, kTarget, {0.1, 0.2, 0});
   Approach approach;
   EXPECT_EQ(approach.share(10, 0.1), 0);
   approach.take(plan, 6, start, forecast);
   for (const double cursor : {6.0, 7.0, 9.0, 10.0}) {
-    MovingPose target = target_at(forecast, start + from_seconds(0.1 * (cursor - 6)));
+    MovingPose target = predicted_target(forecast, start + from_seconds(0.1 * (cursor - 6))).target;
     const Eigen::Vector3d planned = hand_at(plan, cursor, Direction::kForward).pose.position;
     const auto position = [&] {
       return approach.hand(cursor, Direction::kForward, target, 0.3).pose.position;
@@ -128,7 +128,8 @@ TEST(Approach, IsThePlanWhileTheTargetMovesAsForecastAndTheTargetsWhereItDoesNot
     EXPECT_LT((position() - planned - Eigen::Vector3d(0, 0.05, 0)).norm(), 1e-12) << cursor;
   }
   approach.take(plan, 6, start, forecast_of(start, kTarget, kStill));
-  EXPECT_LT((approach.hand(10, Direction::kStand, target_at(forecast, start), 0.3).pose.position -
+  EXPECT_LT((approach.hand(10, Direction::kStand, predicted_target(forecast, start).target, 0.3)
+                 .pose.position -
              plan.poses[10].position + 0.4 * Eigen::Vector3d(0.1, 0.2, 0))
                 .norm(),
             1e-12)
@@ -146,7 +147,7 @@ TEST(Decision, RetractsFromTrackingWhenTheTargetBecomesUnstable) {
 }
 
 TEST(Decision, ChangesAtMostOncePerDwellTimeWhenTheHmmChatters) {
-  DecisionParameters parameters = usual_parameters();
+  DecisionParams parameters = usual_params();
   // A memory of no observation: the belief follows every single velocity.
   parameters.hmm.transition.setConstant(1.0 / 3);
   World world(parameters);
@@ -246,7 +247,7 @@ TEST(Decision, PausesThenGoesBackThenStopsWhenTheTargetStaysLost) {
 }
 
 TEST(Decision, StopsAtTheTimeLimit) {
-  DecisionParameters parameters = usual_parameters();
+  DecisionParams parameters = usual_params();
   parameters.time_limit = from_seconds(1.5);
   World world(parameters);
   const Outcome outcome = world.until(State::kStopped, 1.6);
@@ -283,7 +284,7 @@ TEST(Decision, KeepsItsCursorWithinAShorterPlan) {
 }
 
 TEST(Decision, BlindGoesToTheEndAndHoldsWhateverTheTargetDoes) {
-  DecisionParameters parameters = usual_parameters();
+  DecisionParams parameters = usual_params();
   parameters.framework = false;
   World world(parameters);
   world.until(State::kForward, 0.1);
@@ -299,15 +300,15 @@ TEST(Decision, BlindGoesToTheEndAndHoldsWhateverTheTargetDoes) {
 }
 
 TEST(Decision, ResumesFromAMissedForecastWithoutNamingIt) {
-  Decision decision(usual_parameters());
+  Decision decision(usual_params());
   Tick tick;
   tick.stamp = from_seconds(1);
   tick.forecasts.push_back({from_seconds(0.94), nullptr});
   EXPECT_EQ(decision.update(tick).progress.forecast_stamp, Stamp{0});
 }
 
-TEST(DecisionParameters, AreRefusedByName) {
-  const std::vector<std::pair<std::string, std::function<void(DecisionParameters&)>>> catalogue{
+TEST(DecisionParams, AreRefusedByName) {
+  const std::vector<std::pair<std::string, std::function<void(DecisionParams&)>>> catalogue{
       {"max_wait", [](auto& p) { p.max_gap = Duration{0}; }},
       {"lead", [](auto& p) { p.lead = Duration{-1}; }},
       {"hold_time", [](auto& p) { p.hold_time = Duration{-1}; }},
@@ -321,7 +322,7 @@ TEST(DecisionParameters, AreRefusedByName) {
       {"initial", [](auto& p) { p.hmm.initial.setZero(); }},
   };
   for (const auto& [culprit, spoil] : catalogue) {
-    DecisionParameters parameters = usual_parameters();
+    DecisionParams parameters = usual_params();
     spoil(parameters);
     try {
       Decision decision(parameters);

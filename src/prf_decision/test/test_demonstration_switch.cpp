@@ -56,7 +56,7 @@ TEST_F(DemonstrationSwitchs, GoBackAlongTheSkillBeforeThenToTheStartOfTheNewOneT
 }
 
 TEST_F(DemonstrationSwitchs, BeginAtOnceWhereNothingWasExecuted) {
-  DecisionParameters parameters = usual_parameters();
+  DecisionParams parameters = usual_params();
   parameters.autostart = false;
   World idle(parameters);
   idle.others["side"] = side_skill();

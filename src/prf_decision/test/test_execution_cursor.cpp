@@ -98,7 +98,7 @@ TEST(ExecutionCursor, FeedsForwardTheDerivativeOfThePose) {
     const Eigen::Vector3d slope = (after.pose.position - at.pose.position) / to_seconds(h);
     EXPECT_LT((slope - at.linear_velocity).norm(), 5e-3 * (1 + at.linear_velocity.norm()));
     const Eigen::Vector3d turn =
-        rotation_between(at.pose.orientation, after.pose.orientation) / to_seconds(h);
+        prf_core::rotation_between(at.pose.orientation, after.pose.orientation) / to_seconds(h);
     EXPECT_LT((turn - at.angular_velocity).norm(), 1e-4 * (1 + at.angular_velocity.norm()));
     const MovingPose back = hand_at(skill, cursor, Direction::kBack);
     EXPECT_EQ(back.linear_velocity, -at.linear_velocity);

@@ -12,7 +12,7 @@ namespace prf_decision {
 namespace {
 
 TEST(Guards, GradeTheAgeOfTheTarget) {
-  const GuardParameters guards = usual_guards();
+  const GuardParams guards = usual_guards();
   EXPECT_FALSE(object_to_age(guards, from_seconds(0.3)));
   EXPECT_EQ(object_to_age(guards, from_seconds(0.31))->event, Event::kHazard);
   EXPECT_EQ(object_to_age(guards, from_seconds(1.01))->event, Event::kOverdue);
@@ -22,7 +22,7 @@ TEST(Guards, GradeTheAgeOfTheTarget) {
 }
 
 TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
-  const GuardParameters guards = usual_guards();
+  const GuardParams guards = usual_guards();
   const Eigen::Vector3d target(0.9, 0, 0.65);
   EXPECT_FALSE(object_to_forecast(guards, forecast_of(Stamp{0}, target, {1.4, 0, 0})));
   EXPECT_EQ(object_to_forecast(guards, forecast_of(Stamp{0}, {2.1, 0, 0.2755}, {0, 0, 0}))->reason,
@@ -35,7 +35,7 @@ TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
 }
 
 TEST(Guards, RefuseAGoalOutOfReach) {
-  const GuardParameters guards = usual_guards();
+  const GuardParams guards = usual_guards();
   Pose goal;
   goal.orientation = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());  // the hand looks along x
   goal.position = {0.9, 0, 0.2755};
@@ -47,7 +47,7 @@ TEST(Guards, RefuseAGoalOutOfReach) {
 }
 
 TEST(Guards, RefuseTheirOwnParametersByName) {
-  const std::vector<std::pair<std::string, std::function<void(GuardParameters&)>>> catalogue{
+  const std::vector<std::pair<std::string, std::function<void(GuardParams&)>>> catalogue{
       {"coast_limits[0]", [](auto& g) { g.pause_after = Duration{0}; }},
       {"coast_limits[1]", [](auto& g) { g.reverse_after = g.pause_after; }},
       {"coast_limits[2]", [](auto& g) { g.stop_after = g.pause_after; }},
@@ -56,7 +56,7 @@ TEST(Guards, RefuseTheirOwnParametersByName) {
       {"max_target_speed", [](auto& g) { g.max_target_speed = NAN; }},
   };
   for (const auto& [culprit, spoil] : catalogue) {
-    GuardParameters guards = usual_guards();
+    GuardParams guards = usual_guards();
     spoil(guards);
     try {
       guards.validate();

@@ -15,7 +15,7 @@
 namespace prf_decision {
 namespace {
 
-double density(const HmmParameters& hmm, std::size_t state, const Eigen::Vector3d& o) {
+double density(const HmmParams& hmm, std::size_t state, const Eigen::Vector3d& o) {
   const Eigen::Vector3d d = o - hmm.mean[state];
   const Eigen::Matrix3d& s = hmm.covariance[state];
   return std::exp(-0.5 * d.dot(s.inverse() * d)) /
@@ -23,7 +23,7 @@ double density(const HmmParameters& hmm, std::size_t state, const Eigen::Vector3
 }
 
 // P(state at the end, observations) by summing over every state sequence.
-Eigen::Vector3d enumerate(const HmmParameters& hmm, const std::vector<Eigen::Vector3d>& o) {
+Eigen::Vector3d enumerate(const HmmParams& hmm, const std::vector<Eigen::Vector3d>& o) {
   Eigen::Vector3d joint = Eigen::Vector3d::Zero();
   const auto sequences = static_cast<std::size_t>(std::lround(std::pow(3, o.size())));
   for (std::size_t code = 0; code < sequences; ++code) {
@@ -43,7 +43,7 @@ Eigen::Vector3d enumerate(const HmmParameters& hmm, const std::vector<Eigen::Vec
 }
 
 TEST(HmmFilter, EqualsTheEnumerationOfAllStateSequences) {
-  const HmmParameters hmm = skewed_hmm();
+  const HmmParams hmm = skewed_hmm();
   const HmmFilter filter(hmm);
   std::mt19937 random(1);
   std::normal_distribution<double> velocity(0, 0.3);
@@ -73,7 +73,7 @@ TEST(HmmFilter, StaysADistributionUnderFarOutliers) {
 }
 
 TEST(HmmFilter, DriftsToTheStationaryDistributionWithoutObservations) {
-  const HmmParameters hmm = skewed_hmm();
+  const HmmParams hmm = skewed_hmm();
   const HmmFilter filter(hmm);
   HmmBelief belief = filter.observe(filter.initial_belief(), {0, 0, 0});
   for (int k = 0; k < 500; ++k) belief = filter.predict(belief);
@@ -98,8 +98,8 @@ TEST(HmmFilter, PrefersTheMoreCautiousStateWhenEqual) {
   EXPECT_EQ(most_probable(belief), Intent::kPause);
 }
 
-TEST(HmmParameters, RefusesEveryEntryOfTheCatalogueByName) {
-  using Spoil = std::function<void(HmmParameters&)>;
+TEST(HmmParams, RefusesEveryEntryOfTheCatalogueByName) {
+  using Spoil = std::function<void(HmmParams&)>;
   const std::vector<std::pair<std::string, Spoil>> catalogue{
       {"initial sums", [](auto& h) { h.initial << 0.5, 0.3, 0.3; }},
       {"initial[1]", [](auto& h) { h.initial << 0.9, -0.2, 0.3; }},
@@ -120,7 +120,7 @@ TEST(HmmParameters, RefusesEveryEntryOfTheCatalogueByName) {
       {"covariance.reverse gives an rms speed", [](auto& h) { h.covariance[2] = h.covariance[1]; }},
   };
   for (const auto& [culprit, spoil] : catalogue) {
-    HmmParameters hmm = usual_hmm();
+    HmmParams hmm = usual_hmm();
     ASSERT_NO_THROW(hmm.validate());
     spoil(hmm);
     try {

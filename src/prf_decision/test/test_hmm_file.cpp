@@ -34,7 +34,7 @@ class HmmFile : public testing::Test {
   const std::string path_ = testing::TempDir() + "prf_decision_hmm_file.yaml";
 };
 
-void expect_same(const HmmParameters& a, const HmmParameters& b) {
+void expect_same(const HmmParams& a, const HmmParams& b) {
   EXPECT_TRUE(a.initial.isApprox(b.initial, 1e-12));
   EXPECT_TRUE(a.transition.isApprox(b.transition, 1e-12));
   for (std::size_t i = 0; i < kIntents; ++i) {
@@ -48,8 +48,8 @@ TEST_F(HmmFile, GivesTheValuesThatAreWrittenInIt) {
 }
 
 TEST_F(HmmFile, OfTheConfigurationIsValid) {
-  const HmmParameters hmm = load_hmm("config/hmm_default.yaml");
-  HmmParameters expected = usual_hmm();
+  const HmmParams hmm = load_hmm("config/hmm_default.yaml");
+  HmmParams expected = usual_hmm();
   expected.covariance = {Eigen::Matrix3d::Identity() * 0.15 * 0.15,
                          Eigen::Matrix3d::Identity() * 0.285 * 0.285,
                          Eigen::Matrix3d::Identity() * 0.54 * 0.54};
@@ -57,20 +57,20 @@ TEST_F(HmmFile, OfTheConfigurationIsValid) {
 }
 
 TEST_F(HmmFile, KeepsEveryDigitWhenWrittenAndRead) {
-  HmmParameters hmm = skewed_hmm();
+  HmmParams hmm = skewed_hmm();
   hmm.initial.setConstant(1.0 / 3);
   hmm.transition.setConstant(1.0 / 3);
   for (std::size_t i = 0; i < kIntents; ++i) {
     hmm.mean[i] /= 3;
     hmm.covariance[i] /= 3;
   }
-  const HmmParameters read = load_hmm(write(hmm_text(hmm, "Two lines\nof comment")));
+  const HmmParams read = load_hmm(write(hmm_text(hmm, "Two lines\nof comment")));
   EXPECT_EQ(read.initial, hmm.initial);
   EXPECT_EQ(read.transition, hmm.transition);
   EXPECT_EQ(read.mean, hmm.mean);
   EXPECT_EQ(read.covariance, hmm.covariance);
 
-  HmmParameters bad = hmm;
+  HmmParams bad = hmm;
   bad.initial.setZero();
   EXPECT_THROW((void)hmm_text(bad, ""), std::invalid_argument);
 }

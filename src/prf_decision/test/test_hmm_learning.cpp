@@ -62,7 +62,7 @@ TEST(HmmLearning, TakesTheStepsOfHmmlearn) {
   reverse << 0.043115285365, -0.0069722988255, -0.0283746523365, -0.0069722988255, 0.105003739609,
       0.029127565529, -0.0283746523365, 0.029127565529, 0.0844861230215;
 
-  HmmParameters hmm = skewed_hmm();
+  HmmParams hmm = skewed_hmm();
   for (const double log_likelihood : kHmmlearnLikelihood) {
     const EmStep step = em_step(hmm, {reference_run()}, true);
     EXPECT_NEAR(step.log_likelihood, log_likelihood, kTolerance);
@@ -90,7 +90,7 @@ TEST(HmmSequence, EndsWithThePosteriorOfTheFilterAndPassesOverUnseenTargetsLikeI
 }
 
 TEST(HmmSequence, RefusesWhatTheModelMakesImpossible) {
-  const HmmParameters hmm = usual_hmm();  // forward never becomes reverse at once
+  const HmmParams hmm = usual_hmm();  // forward never becomes reverse at once
   const Sequence run{{std::nullopt, Intent::kForward}, {std::nullopt, Intent::kReverse}};
   EXPECT_THROW((void)smooth(hmm, run), std::invalid_argument);
   EXPECT_THROW((void)most_probable_path(hmm, run), std::invalid_argument);
@@ -98,9 +98,9 @@ TEST(HmmSequence, RefusesWhatTheModelMakesImpossible) {
 }
 
 TEST(HmmLearning, FindsTheModelThatTheRunsWereDrawnFromWithoutLabels) {
-  HmmParameters truth = usual_hmm();
+  HmmParams truth = usual_hmm();
   truth.transition << 0.9, 0.08, 0.02, 0.05, 0.9, 0.05, 0.02, 0.08, 0.9;
-  LearningOptions options;
+  LearningParams options;
   options.restarts = 2;
   const Learned learned =
       learn({without_labels(draw(truth, 4000, 1)), without_labels(draw(truth, 4000, 2))}, options);
@@ -116,14 +116,14 @@ TEST(HmmLearning, FindsTheModelThatTheRunsWereDrawnFromWithoutLabels) {
 // Three intents that move at different velocities and hardly vary: a first guess with random means
 // finds them in any order.
 TEST(HmmLearning, OrdersTheStatesBySpeedWhereverItFoundThem) {
-  HmmParameters truth = usual_hmm();
+  HmmParams truth = usual_hmm();
   truth.transition << 0.9, 0.08, 0.02, 0.05, 0.9, 0.05, 0.02, 0.08, 0.9;
   truth.mean = {Eigen::Vector3d{0.05, 0, 0}, Eigen::Vector3d{-0.2, 0.1, 0},
                 Eigen::Vector3d{0.3, 0.2, 0.3}};
   for (Eigen::Matrix3d& covariance : truth.covariance) {
     covariance = 0.01 * Eigen::Matrix3d::Identity();
   }
-  LearningOptions options;
+  LearningParams options;
   options.free_means = true;
   options.restarts = 8;
   const Learned learned = learn({without_labels(draw(truth, 2000, 4))}, options);
@@ -137,7 +137,7 @@ TEST(HmmLearning, OrdersTheStatesBySpeedWhereverItFoundThem) {
 }
 
 TEST(HmmLearning, NeverLowersTheLikelihood) {
-  LearningOptions options;
+  LearningParams options;
   options.restarts = 3;
   std::vector<std::vector<double>> climbs(3);
   (void)learn({without_labels(draw(usual_hmm(), 1500, 5))}, options,
@@ -160,7 +160,7 @@ TEST(HmmLearning, CountsWhereEverythingIsLabelled) {
     const auto from = static_cast<Eigen::Index>(*run[k - 1].label);
     counts(from, static_cast<Eigen::Index>(*run[k].label)) += 1;
   }
-  const Learned learned = learn({run}, LearningOptions());
+  const Learned learned = learn({run}, LearningParams());
   EXPECT_LE(learned.log_likelihood.size(), 3u);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::RowVector3d share = counts.row(i) / counts.row(i).sum();
@@ -170,13 +170,13 @@ TEST(HmmLearning, CountsWhereEverythingIsLabelled) {
 
 TEST(HmmLearning, GivesTheSameAnswerForTheSameSeed) {
   const Sequence run = without_labels(draw(usual_hmm(), 800, 7));
-  const Learned once = learn({run}, LearningOptions());
-  const Learned again = learn({run}, LearningOptions());
+  const Learned once = learn({run}, LearningParams());
+  const Learned again = learn({run}, LearningParams());
   EXPECT_EQ(once.log_likelihood, again.log_likelihood);
   EXPECT_EQ(once.parameters.transition, again.parameters.transition);
 }
 
-std::string refusal(const std::vector<Sequence>& runs, const LearningOptions& options) {
+std::string refusal(const std::vector<Sequence>& runs, const LearningParams& options) {
   try {
     (void)learn(runs, options);
   } catch (const std::invalid_argument& error) {
@@ -186,7 +186,7 @@ std::string refusal(const std::vector<Sequence>& runs, const LearningOptions& op
 }
 
 TEST(HmmLearning, RefusesDeadStatesStatesOutOfOrderAndTooLittle) {
-  const LearningOptions options;
+  const LearningParams options;
   Sequence calm = draw(usual_hmm(), 400, 8);
   for (Observation& o : calm) o.label = Intent::kForward;
   EXPECT_NE(refusal({calm}, options).find("pause holds 0 observations"), std::string::npos);
@@ -200,16 +200,16 @@ TEST(HmmLearning, RefusesDeadStatesStatesOutOfOrderAndTooLittle) {
   EXPECT_NE(refusal({still}, options).find("smallest eigenvalue"), std::string::npos);
 }
 
-TEST(LearningOptions, AreRefusedByName) {
-  LearningOptions options;
+TEST(LearningParams, AreRefusedByName) {
+  LearningParams options;
   options.restarts = 0;
-  EXPECT_NE(refusal({}, options).find("restarts is 0"), std::string::npos);
-  options = LearningOptions();
+  EXPECT_NE(refusal({}, options).find("restarts = 0"), std::string::npos);
+  options = LearningParams();
   options.max_iterations = 1;
-  EXPECT_NE(refusal({}, options).find("max_iterations is 1"), std::string::npos);
-  options = LearningOptions();
+  EXPECT_NE(refusal({}, options).find("max_iterations = 1"), std::string::npos);
+  options = LearningParams();
   options.tolerance = NAN;
-  EXPECT_NE(refusal({}, options).find("tolerance is nan"), std::string::npos);
+  EXPECT_NE(refusal({}, options).find("tolerance = nan"), std::string::npos);
 }
 
 }  // namespace

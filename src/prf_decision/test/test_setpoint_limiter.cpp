@@ -10,7 +10,7 @@
 namespace prf_decision {
 namespace {
 
-constexpr CatchUp kCatchUp{0.2, 0.5, 0.1};
+constexpr CatchUpParams kCatchUp{0.2, 0.5, 0.1};
 
 MovingPose swaying(double t) {
   MovingPose at;
@@ -54,8 +54,12 @@ TEST(SetpointLimiter, CatchesUpWithAMovingReferenceAtItsSpeedAndThenAtFirstOrder
   setpoint.position.x() -= 0.1;
   for (int tick = 1; tick <= 100; ++tick) {
     setpoint = limited_setpoint(setpoint, swaying(0.01 * tick), kCatchUp, kTickPeriod).pose;
-    if (tick == 39) EXPECT_NEAR(setpoint.position.x(), 0.5 + 39 * 0.002, 2e-6);
-    if (tick == 70) EXPECT_NEAR(setpoint.position.x(), 0.6 - 0.022 * std::exp(-3.1), 1e-4);
+    if (tick == 39) {
+      EXPECT_NEAR(setpoint.position.x(), 0.5 + 39 * 0.002, 2e-6);
+    }
+    if (tick == 70) {
+      EXPECT_NEAR(setpoint.position.x(), 0.6 - 0.022 * std::exp(-3.1), 1e-4);
+    }
   }
   EXPECT_NEAR(setpoint.position.x(), 0.6, 1e-4);
 }
@@ -93,10 +97,10 @@ TEST(SetpointLimiter, FeedsForwardWhatItMovesWhileCatchingUp) {
   EXPECT_LT((moved - first.linear_velocity).norm(), 1e-9);
 }
 
-TEST(CatchUp, MustBePositive) {
-  EXPECT_THROW(CatchUp({0, 1, 1}).validate(), std::invalid_argument);
-  EXPECT_THROW(CatchUp({1, NAN, 1}).validate(), std::invalid_argument);
-  EXPECT_THROW(CatchUp({1, 1, 0}).validate(), std::invalid_argument);
+TEST(CatchUpParams, MustBePositive) {
+  EXPECT_THROW(CatchUpParams({0, 1, 1}).validate(), std::invalid_argument);
+  EXPECT_THROW(CatchUpParams({1, NAN, 1}).validate(), std::invalid_argument);
+  EXPECT_THROW(CatchUpParams({1, 1, 0}).validate(), std::invalid_argument);
   EXPECT_NO_THROW(kCatchUp.validate());
 }
 

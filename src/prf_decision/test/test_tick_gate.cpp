@@ -15,9 +15,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const GateParameters kGate{milliseconds(60), from_seconds(1 / 30.0), milliseconds(300)};
+const GateParams kGate{milliseconds(60), from_seconds(1 / 30.0), milliseconds(300)};
 
-ForecastArrival forecast(Stamp stamp) { return {stamp, std::make_shared<Forecast>()}; }
+ForecastArrival forecast(Stamp stamp) { return {stamp, std::make_shared<TargetForecast>()}; }
 
 PlanAnswer answer(Stamp stamp) { return {stamp, std::make_shared<Trajectory>(), ""}; }
 
@@ -245,8 +245,8 @@ TEST(TickGate, IgnoresWhatIsLeftOfAnotherRunBeforeItsFirstTick) {
   EXPECT_EQ(describe(*gate.next()), "0:\n");
 }
 
-TEST(GateParameters, AreRefusedByName) {
-  for (const auto& [culprit, parameters] : std::vector<std::pair<std::string, GateParameters>>{
+TEST(GateParams, AreRefusedByName) {
+  for (const auto& [culprit, parameters] : std::vector<std::pair<std::string, GateParams>>{
            {"pipeline_delay", {Duration{0}, milliseconds(33), milliseconds(300)}},
            {"camera_period", {milliseconds(60), milliseconds(4), milliseconds(300)}},
            {"max_wait", {milliseconds(60), milliseconds(33), milliseconds(-1)}}}) {

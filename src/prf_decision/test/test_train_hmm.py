@@ -15,12 +15,12 @@ import rospy
 import yaml
 from prf_msgs.msg import ExecutionProgress, TargetForecast, TargetPrediction
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts")
-HMM = os.path.join(SCRIPTS, "..", "config", "hmm_default.yaml")
+COMMANDS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python")
+HMM = os.path.join(COMMANDS, "..", "config", "hmm_default.yaml")
 
 
 train_hmm = importlib.machinery.SourceFileLoader(
-    "train_hmm", os.path.join(SCRIPTS, "train_hmm")).load_module()
+    "train_hmm", os.path.join(COMMANDS, "train_hmm")).load_module()
 
 
 def write_bag(path, stamps, statuses, progress):
@@ -38,7 +38,7 @@ def write_bag(path, stamps, statuses, progress):
 
 
 def run(name, *arguments):
-    return subprocess.run([sys.executable, os.path.join(SCRIPTS, name), *map(str, arguments)],
+    return subprocess.run([sys.executable, os.path.join(COMMANDS, name), *map(str, arguments)],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
 
 
@@ -154,7 +154,7 @@ class TrainHmm(unittest.TestCase):
         for name, arguments, culprit in (
                 ("train_hmm", [self.path("none.bag")], "none.bag"),
                 ("train_hmm", [nonsense], "train_hmm:"),
-                ("train_hmm", [self.bags[0], "--restarts", "0"], "restarts is 0"),
+                ("train_hmm", [self.bags[0], "--restarts", "0"], "restarts = 0"),
                 ("simulate", ["--out", "x.bag", "--seed", "1", "--duration", "-1"], "--duration"),
                 ("simulate", ["--out", self.path("x.bag"), "--seed", "1", "--duration", "1",
                               "--hmm", self.path("no.yaml")], "cannot be read")):

@@ -17,7 +17,7 @@ namespace prf_decision {
 class Approach {
  public:
   // Takes a plan made for an execution that was at `cursor` at `stamp`.
-  void take(const Trajectory& plan, double cursor, Stamp stamp, const Forecast& forecast);
+  void take(const Trajectory& plan, double cursor, Stamp stamp, const TargetForecast& forecast);
 
   // 0 .. 1: the target's share w at the cursor; 0 before a plan was taken.
   [[nodiscard]] double share(double cursor, double length) const;

@@ -15,13 +15,13 @@
 #include "prf_decision/demonstration_switch.hpp"
 #include "prf_decision/guards.hpp"
 #include "prf_decision/hmm.hpp"
-#include "prf_decision/motion.hpp"
 #include "prf_decision/setpoint_limiter.hpp"
 #include "prf_decision/tick_gate.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 
-struct DecisionParameters {
+struct DecisionParams {
   bool framework = true;
   bool autostart = true;          // the first execution begins without an order
   Duration max_gap{0};            // between ticks, beyond it joint_states count as silent
@@ -31,9 +31,9 @@ struct DecisionParameters {
   Duration time_limit{0};         // from the execution's first tick
   double tracking_tolerance = 0;  // set-point to goal, m
   double approach_length = 0;     // of the skill's end that belongs to the target, m
-  CatchUp catch_up;
-  GuardParameters guards;
-  HmmParameters hmm;
+  CatchUpParams catch_up;
+  GuardParams guards;
+  HmmParams hmm;
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
@@ -74,7 +74,7 @@ struct Outcome {
 class Decision {
  public:
   // Validates the parameters.
-  explicit Decision(const DecisionParameters& parameters);
+  explicit Decision(const DecisionParams& parameters);
 
   [[nodiscard]] Outcome update(const Tick& tick);
 
@@ -86,7 +86,7 @@ class Decision {
   [[nodiscard]] bool is_asking() const { return demonstration_switch_.is_asking(); }
 
   // Other parameters from the next tick on; framework, autostart and the HMM stay as they are.
-  void tune(const DecisionParameters& parameters);
+  void tune(const DecisionParams& parameters);
 
   // Stops whatever is under way at the next tick, in any state.
   void preempt() { preempted_ = true; }
@@ -102,7 +102,7 @@ class Decision {
   struct Planned {
     std::shared_ptr<const Trajectory> plan;
     Stamp stamp{0};
-    std::shared_ptr<const Forecast> forecast;
+    std::shared_ptr<const TargetForecast> forecast;
   };
 
   void begin_execution(Stamp stamp);
@@ -124,7 +124,7 @@ class Decision {
   [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool objected);
   [[nodiscard]] Progress report(Stamp stamp) const;
 
-  DecisionParameters parameters_;
+  DecisionParams parameters_;
   HmmFilter hmm_;
   HmmBelief belief_;
   State state_ = State::kWaiting;
@@ -137,7 +137,7 @@ class Decision {
   Stamp begun_{0};          // the execution
   std::optional<Stamp> last_tick_;
   Stamp entered_{0};  // when the state was entered
-  std::shared_ptr<const Forecast> forecast_;
+  std::shared_ptr<const TargetForecast> forecast_;
   std::shared_ptr<const Trajectory> plan_;
   DemonstrationSwitch demonstration_switch_;
   Planned next_;         // of the demonstration taken up, until it comes into force

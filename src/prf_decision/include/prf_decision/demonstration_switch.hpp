@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "prf_decision/stamp.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 

@@ -10,7 +10,7 @@
 
 #include <cstddef>
 
-#include "prf_decision/motion.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 

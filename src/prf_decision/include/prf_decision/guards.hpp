@@ -6,23 +6,21 @@
 #include <string>
 
 #include "prf_decision/decision_fsm.hpp"
-#include "prf_decision/motion.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 
-struct GuardParameters {
-  Duration pause_after{0};      // target unseen, T1
-  Duration reverse_after{0};    // T2 > T1
-  Duration stop_after{0};       // T3 > T2
-  double max_reach = 0;         // hand from the shoulder's centre, m
-  double workspace_radius = 0;  // target from the shoulder's centre, m
-  double max_target_speed = 0;  // m/s
+struct GuardParams {
+  Duration pause_after{0};                             // target unseen, T1
+  Duration reverse_after{0};                           // T2 > T1
+  Duration stop_after{0};                              // T3 > T2
+  Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  // its centre in the planning frame, m
+  double max_reach = 0;                                // hand from the shoulder's centre, m
+  double workspace_radius = 0;                         // target from the shoulder's centre, m
+  double max_target_speed = 0;                         // m/s
 
   void validate() const;
 };
-
-// Centre of the Jaco2's shoulder in its base frame, m: axes 2 and 3 meet within 1.6 mm of it.
-inline const Eigen::Vector3d kShoulder{0, 0, 0.2755};
 
 struct Objection {
   Event event = Event::kHazard;
@@ -30,14 +28,14 @@ struct Objection {
 };
 
 // The target was last seen `age` ago.
-[[nodiscard]] std::optional<Objection> object_to_age(const GuardParameters& guards, Duration age);
+[[nodiscard]] std::optional<Objection> object_to_age(const GuardParams& guards, Duration age);
 
 // A prediction is outside the workspace or too fast.
-[[nodiscard]] std::optional<Objection> object_to_forecast(const GuardParameters& guards,
-                                                          const Forecast& forecast);
+[[nodiscard]] std::optional<Objection> object_to_forecast(const GuardParams& guards,
+                                                          const TargetForecast& forecast);
 
 // The hand's goal is farther than the arm reaches, or no joint position within limits gives it.
-[[nodiscard]] std::optional<Objection> object_to_goal(const GuardParameters& guards,
+[[nodiscard]] std::optional<Objection> object_to_goal(const GuardParams& guards,
                                                       const Pose& hand_goal);
 
 }  // namespace prf_decision

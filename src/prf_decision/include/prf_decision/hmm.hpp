@@ -18,7 +18,7 @@ enum class Intent { kForward, kPause, kReverse };
 inline constexpr std::size_t kIntents = 3;
 inline constexpr std::array<const char*, kIntents> kIntentNames{"forward", "pause", "reverse"};
 
-struct HmmParameters {
+struct HmmParams {
   Eigen::Vector3d initial = Eigen::Vector3d::Zero();     // probabilities, sum 1
   Eigen::Matrix3d transition = Eigen::Matrix3d::Zero();  // row: from, column: to; rows sum to 1
   std::array<Eigen::Vector3d, kIntents> mean{};          // m/s
@@ -34,7 +34,7 @@ struct HmmParameters {
 class EmissionModel {
  public:
   // Refuses covariances that are not positive definite, by name.
-  explicit EmissionModel(const HmmParameters& parameters);
+  explicit EmissionModel(const HmmParams& parameters);
 
   // The velocity must be finite.
   [[nodiscard]] Eigen::Vector3d log_density(const Eigen::Vector3d& velocity) const;
@@ -46,7 +46,7 @@ class EmissionModel {
 };
 
 // E|o|^2 = |mean|^2 + tr covariance: the order of the states.
-[[nodiscard]] double mean_square_speed(const HmmParameters& parameters, std::size_t state);
+[[nodiscard]] double mean_square_speed(const HmmParams& parameters, std::size_t state);
 
 struct HmmBelief {
   Eigen::Vector3d posterior = Eigen::Vector3d::Zero();  // sums to 1
@@ -57,7 +57,7 @@ struct HmmBelief {
 class HmmFilter {
  public:
   // Validates the parameters.
-  explicit HmmFilter(const HmmParameters& parameters);
+  explicit HmmFilter(const HmmParams& parameters);
 
   [[nodiscard]] HmmBelief initial_belief() const;
 
@@ -68,7 +68,7 @@ class HmmFilter {
   [[nodiscard]] HmmBelief predict(const HmmBelief& belief) const;
 
  private:
-  HmmParameters parameters_;
+  HmmParams parameters_;
   EmissionModel emission_;
 };
 

@@ -9,10 +9,10 @@
 namespace prf_decision {
 
 // std::invalid_argument names the file, the key, the value and the bound.
-[[nodiscard]] HmmParameters load_hmm(const std::string& path);
+[[nodiscard]] HmmParams load_hmm(const std::string& path);
 
 // The file's text, every digit kept; `comment` goes above it, each line behind a '#'.
 // Refuses parameters that load_hmm() would refuse.
-[[nodiscard]] std::string hmm_text(const HmmParameters& parameters, const std::string& comment);
+[[nodiscard]] std::string hmm_text(const HmmParams& parameters, const std::string& comment);
 
 }  // namespace prf_decision

@@ -10,7 +10,7 @@
 //
 // Without labels the likelihood does not change when states change names: they are named by rising
 // mean square speed E|o|^2, Forward, Pause, Reverse. With labels the names are the labels'. In both
-// cases a model that HmmParameters::validate() refuses is no answer.
+// cases a model that HmmParams::validate() refuses is no answer.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@
 
 namespace prf_decision {
 
-struct LearningOptions {
+struct LearningParams {
   int restarts = 8;          // from other first guesses; the most likely result is taken
   int max_iterations = 500;  // of each
   double tolerance = 1e-8;   // rise of ln P per observation below which it has converged
@@ -33,18 +33,18 @@ struct LearningOptions {
 };
 
 struct EmStep {
-  HmmParameters parameters;   // states in the order of those it was given
+  HmmParams parameters;       // states in the order of those it was given
   double log_likelihood = 0;  // of the parameters that it was given
 };
 
 // One iteration. std::runtime_error names a state that has died out (fewer than kLeastShare
 // observations, or a singular covariance).
 inline constexpr double kLeastShare = 4;
-[[nodiscard]] EmStep em_step(const HmmParameters& parameters, const std::vector<Sequence>& runs,
+[[nodiscard]] EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs,
                              bool free_means);
 
 struct Learned {
-  HmmParameters parameters;
+  HmmParams parameters;
   std::vector<double> log_likelihood;  // one per iteration
   bool converged = false;
   int restart = 0;                   // that led here
@@ -54,7 +54,7 @@ struct Learned {
 using OnIteration = std::function<void(int restart, int iteration, double log_likelihood)>;
 
 // std::invalid_argument when no restart leads to a valid model; the message says why.
-[[nodiscard]] Learned learn(const std::vector<Sequence>& runs, const LearningOptions& options,
+[[nodiscard]] Learned learn(const std::vector<Sequence>& runs, const LearningParams& options,
                             const OnIteration& on_iteration = {});
 
 }  // namespace prf_decision

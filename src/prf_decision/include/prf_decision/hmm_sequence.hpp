@@ -29,7 +29,7 @@ struct Smoothing {
 
 // The parameters' probabilities are taken as they are, in any order of the states.
 // std::invalid_argument for an empty sequence, or one that the model makes impossible.
-[[nodiscard]] Smoothing smooth(const HmmParameters& parameters, const Sequence& sequence);
+[[nodiscard]] Smoothing smooth(const HmmParams& parameters, const Sequence& sequence);
 
 struct StatePath {
   std::vector<Intent> states;
@@ -37,11 +37,10 @@ struct StatePath {
 };
 
 // The single most probable sequence of states (Viterbi). Refuses as smooth() does.
-[[nodiscard]] StatePath most_probable_path(const HmmParameters& parameters,
-                                           const Sequence& sequence);
+[[nodiscard]] StatePath most_probable_path(const HmmParams& parameters, const Sequence& sequence);
 
 // A run drawn from the model, every observation labelled. The same seed gives the same run.
-[[nodiscard]] Sequence draw(const HmmParameters& parameters, std::size_t observations,
+[[nodiscard]] Sequence draw(const HmmParams& parameters, std::size_t observations,
                             std::uint32_t seed);
 
 }  // namespace prf_decision

@@ -9,11 +9,11 @@
 // the set-point stays by about a T dt / 2: 0.3 mm at 0.6 m/s^2, T = 0.1 s, 100 Hz.
 #pragma once
 
-#include "prf_decision/motion.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 
-struct CatchUp {
+struct CatchUpParams {
   double linear = 0;         // m/s
   double angular = 0;        // rad/s
   double time_constant = 0;  // s
@@ -22,6 +22,6 @@ struct CatchUp {
 };
 
 [[nodiscard]] MovingPose limited_setpoint(const Pose& previous, const MovingPose& reference,
-                                          const CatchUp& catch_up, Duration dt);
+                                          const CatchUpParams& catch_up, Duration dt);
 
 }  // namespace prf_decision

@@ -18,11 +18,11 @@
 #include <optional>
 #include <vector>
 
-#include "prf_decision/motion.hpp"
+#include "prf_decision/types.hpp"
 
 namespace prf_decision {
 
-struct GateParameters {
+struct GateParams {
   Duration pipeline_delay{0};  // D, exposure of an image to its forecast, at most
   Duration camera_period{0};   // P
   Duration max_wait{0};        // data time after which a silent stream is stale
@@ -42,7 +42,7 @@ struct PlanAnswer {
 // A predictor's message: null forecast when it was refused on arrival.
 struct ForecastArrival {
   Stamp stamp{0};
-  std::shared_ptr<const Forecast> forecast;
+  std::shared_ptr<const TargetForecast> forecast;
 };
 
 struct Tick {
@@ -63,7 +63,7 @@ enum class Push {
 
 class TickGate {
  public:
-  explicit TickGate(const GateParameters& parameters);
+  explicit TickGate(const GateParams& parameters);
 
   Push push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt);
   Push push_forecast(ForecastArrival arrival);
@@ -80,7 +80,7 @@ class TickGate {
   [[nodiscard]] bool forecast_may_be_due(Stamp tick) const;
   [[nodiscard]] bool answer_is_due() const;
 
-  GateParameters parameters_;
+  GateParams parameters_;
   struct JointTick {
     Stamp stamp;
     std::optional<Pose> hand;

@@ -4,10 +4,11 @@
 #include <sensor_msgs/JointState.h>
 
 #include <map>
+#include <prf_ros/conversions.hpp>
 #include <prf_ros/reconfigurable.hpp>
 
 #include "conversions.hpp"
-#include "parameters.hpp"
+#include "params.hpp"
 #include "skill_action.hpp"
 
 namespace prf_decision {
@@ -18,13 +19,13 @@ constexpr double kWarnPeriod = 1.0;  // s
 
 class DecisionNode {
  public:
-  explicit DecisionNode(const NodeParameters& parameters)
-      : parameters_(parameters),
-        gate_(parameters.gate),
-        decision_(parameters.decision),
-        action_(node_, decision_),
-        live_(ros::NodeHandle("~"), live_numbers(parameters.decision),
-              [this](const ReconfigurableParams::Values& values) { tune(values); }) {
+  explicit DecisionNode(const DecisionNodeParams& params)
+      : params_(params),
+        gate_(params.gate),
+        decision_(params.decision),
+        action_(node_, params.robot, decision_),
+        reconfigurable_(ros::NodeHandle("~"), reconfigurable_numbers(params.decision),
+                        [this](const ReconfigurableParams::Values& values) { tune(values); }) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     subscribers_ = {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
@@ -44,21 +45,22 @@ class DecisionNode {
   using ReconfigurableParams = prf_ros::ReconfigurableParams;
 
   void tune(const ReconfigurableParams::Values& values) {
-    const DecisionParameters tuned = with_live_numbers(parameters_.decision, values);
+    const DecisionParams tuned = with_reconfigured(params_.decision, values);
     decision_.tune(tuned);
-    parameters_.decision = tuned;
+    params_.decision = tuned;
   }
 
   void on_joint_states(const sensor_msgs::JointState& message) {
     action_.see_joints(message);
-    account("joint_states", gate_.push_tick(to_core(message.header.stamp), hand_of(message)));
+    account("joint_states", gate_.push_tick(prf_ros::to_core(message.header.stamp),
+                                            measured_hand(params_.robot, message)));
     process();
   }
 
   void on_forecast(const prf_msgs::TargetForecast& message) {
-    ForecastArrival arrival{to_core(message.header.stamp), nullptr};
+    ForecastArrival arrival{prf_ros::to_core(message.header.stamp), nullptr};
     try {
-      arrival.forecast = to_core(message);
+      arrival.forecast = to_core(params_.robot, message);
     } catch (const std::invalid_argument& error) {
       count("target/forecast refused");
       ROS_WARN_THROTTLE(kWarnPeriod, "target/forecast refused: %s", error.what());
@@ -69,14 +71,14 @@ class DecisionNode {
 
   void on_trajectory(const prf_msgs::SkillTrajectory& message) {
     const bool refused = message.status == prf_msgs::SkillTrajectory::REFUSED;
-    PlanAnswer answer{to_core(message.header.stamp), nullptr, "", message.demonstration_switch,
-                      refused};
+    PlanAnswer answer{prf_ros::to_core(message.header.stamp), nullptr, "",
+                      message.demonstration_switch, refused};
     if (refused || message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
       answer.message = message.message;
       count("skill/trajectory without a plan");
     } else {
       try {
-        answer.plan = to_core(message);
+        answer.plan = to_core(params_.robot, message);
       } catch (const std::invalid_argument& error) {
         answer.message = error.what();
         count("skill/trajectory refused");
@@ -92,7 +94,7 @@ class DecisionNode {
     if (push == Push::kFuture) count(topic + " dropped as future");
     if (push != Push::kNewRun) return;
     ROS_WARN("clock of %s went back: new run", topic.c_str());
-    decision_ = Decision(parameters_.decision);
+    decision_ = Decision(params_.decision);
     action_.end_run();
     last_ = Progress();
     diagnostics_.force_update();
@@ -103,8 +105,8 @@ class DecisionNode {
       if (tick->forecast_stale) report_silent("target/forecast");
       if (tick->plan_stale) report_silent("skill/trajectory");
       const auto [progress, setpoint] = decision_.update(*tick);
-      progress_publisher_.publish(to_message(progress));
-      setpoint_publisher_.publish(to_message(tick->stamp, setpoint));
+      progress_publisher_.publish(to_message(params_.robot, progress));
+      setpoint_publisher_.publish(to_message(params_.robot, tick->stamp, setpoint));
       if (progress.state != last_.state) {
         ROS_INFO("%s -> %s: %s", name(last_.state), name(progress.state), progress.reason.c_str());
       }
@@ -118,7 +120,7 @@ class DecisionNode {
   void report_silent(const std::string& topic) {
     count("ticks without " + topic);
     ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent for more than %.2f s", topic.c_str(),
-                      to_seconds(parameters_.gate.max_wait));
+                      to_seconds(params_.gate.max_wait));
   }
 
   void count(const std::string& what) { ++counters_[what]; }
@@ -130,11 +132,11 @@ class DecisionNode {
   }
 
   ros::NodeHandle node_;
-  NodeParameters parameters_;
+  DecisionNodeParams params_;
   TickGate gate_;
   Decision decision_;
   SkillAction action_;
-  ReconfigurableParams live_;
+  ReconfigurableParams reconfigurable_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
   ros::Publisher progress_publisher_;
@@ -150,7 +152,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "decision");
   return prf_ros::run([] {
     prf_decision::DecisionNode node(
-        prf_decision::load_parameters(prf_ros::PrivateParameters(ros::NodeHandle("~"))));
+        prf_decision::load_params(prf_ros::PrivateParameters(ros::NodeHandle("~"))));
     ros::spin();
   });
 }

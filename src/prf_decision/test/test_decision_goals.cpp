@@ -10,8 +10,8 @@
 namespace prf_decision {
 namespace {
 
-DecisionParameters on_demand() {
-  DecisionParameters parameters = usual_parameters();
+DecisionParams on_demand() {
+  DecisionParams parameters = usual_params();
   parameters.autostart = false;
   return parameters;
 }
@@ -168,7 +168,7 @@ TEST(Order, ResumesWhereTheLastExecutionEnded) {
 TEST(Tuning, ActsFromTheNextTickAndIsRefusedWhole) {
   World world;
   world.until(State::kTracking, 2);
-  DecisionParameters tuned = usual_parameters();
+  DecisionParams tuned = usual_params();
   tuned.guards.max_target_speed = 0.05;
   tuned.tracking_tolerance = -1;
   EXPECT_THROW(world.decision().tune(tuned), std::invalid_argument);

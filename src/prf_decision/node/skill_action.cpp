@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_ros/conversions.hpp>
 #include <stdexcept>
 
 #include "conversions.hpp"
@@ -24,13 +25,15 @@ prf_msgs::ExecuteSkillResult result_of(std::uint8_t code, const std::string& tex
 }
 
 Order order_of(const prf_msgs::ExecuteSkillGoal& goal) {
-  return {to_core(goal.time_limit), to_core(goal.hold_time), goal.resume != 0, goal.demonstration};
+  return {prf_ros::to_core(goal.time_limit), prf_ros::to_core(goal.hold_time), goal.resume != 0,
+          goal.demonstration};
 }
 
 }  // namespace
 
-SkillAction::SkillAction(const ros::NodeHandle& node, Decision& decision)
-    : decision_(decision),
+SkillAction::SkillAction(const ros::NodeHandle& node, const RobotNames& robot, Decision& decision)
+    : robot_(robot),
+      decision_(decision),
       server_(
           node, "execute_skill", [this](Server::GoalHandle goal) { on_goal(goal); },
           [this](Server::GoalHandle goal) { on_cancel(goal); }, false) {}
@@ -40,7 +43,7 @@ void SkillAction::see_joints(const sensor_msgs::JointState& joints) {
   const std::size_t count = std::min(joints.name.size(), joints.velocity.size());
   for (std::size_t i = 0; i < count; ++i) {
     const bool moves = !(std::abs(joints.velocity[i]) <= kStill);
-    arm_moves_ = arm_moves_ || (moves && arm_joint(joints.name[i]));
+    arm_moves_ = arm_moves_ || (moves && arm_joint(robot_, joints.name[i]));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private: the action execute_skill. A goal orders one execution from the decision; it takes effect
+// The action execute_skill. A goal orders one execution from the decision; it takes effect
 // with the next tick that is processed. One goal at a time: others are rejected with the reason. A
 // goal that names a demonstration is pending until the planner has taken that up or refused it.
 //
@@ -14,13 +14,14 @@
 #include <optional>
 #include <string>
 
+#include "params.hpp"
 #include "prf_decision/decision.hpp"
 
 namespace prf_decision {
 
 class SkillAction {
  public:
-  SkillAction(const ros::NodeHandle& node, Decision& decision);
+  SkillAction(const ros::NodeHandle& node, const RobotNames& robot, Decision& decision);
 
   // Once all else of the node is ready.
   void start() { server_.start(); }
@@ -40,6 +41,7 @@ class SkillAction {
   void give_feedback(const Progress& progress);
   void give_up(const Progress& progress);
 
+  RobotNames robot_;
   Decision& decision_;
   bool arm_moves_ = false;
   std::optional<Server::GoalHandle> goal_;

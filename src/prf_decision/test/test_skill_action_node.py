@@ -20,7 +20,7 @@ sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test
 from scripted_world import MISSING, PATIENCE, GoalTest, World  # noqa: E402
 
 
-class SkillAction(GoalTest):
+class SkillActionNode(GoalTest):
     @classmethod
     def setUpClass(cls):
         cls.world = World()
@@ -119,7 +119,7 @@ class SkillAction(GoalTest):
             return {each.name: each.value for each in change(config).config.doubles}
 
         before = ask()
-        for numbers, reason in ((dict(dwell_time=0.5, lead=-1.0), "lead is -1.000000, must be"),
+        for numbers, reason in ((dict(dwell_time=0.5, lead=-1.0), "lead = -1, must be"),
                                 (dict(dwell_time=0.5, lead=float("nan")), "lead is nan"),
                                 (dict(dwell_time=0.5, max_wait=1.0), "max_wait cannot be changed")):
             with self.assertRaises(rospy.ServiceException) as refusal:
@@ -150,9 +150,9 @@ class SkillAction(GoalTest):
         self.begin_run()  # the goal of the run before is over
         self.assertEqual(self.result(first)[1].code, ExecuteSkillResult.RUN_ENDED)
         state, result = self.result(self.begin(time_limit=rospy.Duration(-1)))
-        self.assertIn("time_limit is -1.000000, must be >= 0", result.text)
+        self.assertIn("time_limit = -1, must be >= 0", result.text)
         state, result = self.result(self.begin(resume=True, demonstration="side.csv"))
-        self.assertIn("demonstration is 'side.csv', must be empty with resume", result.text)
+        self.assertIn("demonstration = side.csv, must be empty with resume", result.text)
 
     def ask(self, **goal):
         """A goal that the server has seen but the planner has not answered yet."""
@@ -238,5 +238,5 @@ class SkillAction(GoalTest):
 
 
 if __name__ == "__main__":
-    rospy.init_node("test_skill_action")
-    rostest.rosrun("prf_decision", "skill_action", SkillAction)
+    rospy.init_node("test_skill_action_node")
+    rostest.rosrun("prf_decision", "skill_action_node", SkillActionNode)

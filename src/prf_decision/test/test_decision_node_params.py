@@ -30,7 +30,7 @@ def start_with(name, parameters):
     return result.returncode, result.stdout.decode()
 
 
-class DecisionRefusals(unittest.TestCase):
+class DecisionNodeParams(unittest.TestCase):
     def setUp(self):
         with open(CONFIG, encoding="utf-8") as file:
             self.valid = yaml.safe_load(file)
@@ -54,23 +54,25 @@ class DecisionRefusals(unittest.TestCase):
     def test_every_bad_value_is_named_with_its_bound(self):
         nan, infinity = float("nan"), float("inf")
         catalogue = [
-            ("pipeline_delay", 0.0, "pipeline_delay is 0.000000 s, must be > 0"),
-            ("pipeline_delay", nan, "pipeline_delay is nan, must be finite"),
-            ("camera_period", 0.004, "camera_period less 5 ms is -0.001000 s, must be > 0"),
-            ("max_wait", -1, "max_wait is -1.000000 s, must be > 0"),
+            ("pipeline_delay", 0.0, "pipeline_delay = 0, must be > 0 s"),
+            ("pipeline_delay", nan, "pipeline_delay = nan, must be finite"),
+            ("camera_period", 0.004, "camera_period less 5 ms = -0.001, must be > 0 s"),
+            ("max_wait", -1, "max_wait = -1, must be > 0 s"),
             ("max_wait", "soon", "max_wait = soon, must be a number"),
-            ("lead", -0.01, "lead is -0.010000, must be >= 0"),
-            ("hold_time", -1.0, "hold_time is -1.000000, must be >= 0"),
-            ("tracking_tolerance", 0, "tracking_tolerance is 0.000000, must be > 0"),
-            ("dwell_time", nan, "dwell_time is nan"),
-            ("time_limit", infinity, "time_limit is inf"),
+            ("lead", -0.01, "lead = -0.01, must be >= 0 s"),
+            ("hold_time", -1.0, "hold_time = -1, must be >= 0 s"),
+            ("tracking_tolerance", 0, "tracking_tolerance = 0, must be > 0 m"),
+            ("dwell_time", nan, "dwell_time = nan"),
+            ("time_limit", infinity, "time_limit = inf"),
             ("catch_up_speed", [0.2], "catch_up_speed"),
-            ("catch_up_time", 0.0, "catch_up_time is 0.000000, must be > 0"),
-            ("catch_up_speed", [0.2, 0.0], "catch_up_speed angular is 0.000000, must be > 0"),
-            ("coast_limits", [0.3, 0.2, 5.0], "coast_limits[1] is 0.200000, must be > coast"),
-            ("max_reach", nan, "max_reach is nan, must be > 0"),
-            ("workspace_radius", -2.0, "workspace_radius is -2.000000, must be > 0"),
-            ("max_target_speed", infinity, "max_target_speed is inf, must be > 0"),
+            ("catch_up_time", 0.0, "catch_up_time = 0, must be > 0"),
+            ("catch_up_speed", [0.2, 0.0], "catch_up_speed angular = 0, must be > 0"),
+            ("coast_limits", [0.3, 0.2, 5.0], "coast_limits[1] = 0.2, must be > coast"),
+            ("max_reach", nan, "max_reach = nan, must be > 0"),
+            ("workspace_radius", -2.0, "workspace_radius = -2, must be > 0"),
+            ("max_target_speed", infinity, "max_target_speed = inf, must be > 0"),
+            ("shoulder", [0.0, 0.0, nan], "shoulder = "),
+            ("hand_frame", "", "hand_frame = , must be"),
             ("framework", "yes", "framework = yes, must be true or false"),
             ("autostart", 1, "autostart = 1, must be true or false"),
             ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
@@ -90,5 +92,5 @@ class DecisionRefusals(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("test_decision_refusals")
-    rostest.rosrun("prf_decision", "decision_refusals", DecisionRefusals)
+    rospy.init_node("test_decision_node_params")
+    rostest.rosrun("prf_decision", "decision_node_params", DecisionNodeParams)

@@ -72,7 +72,7 @@ class PlannedWorld(World):
         raise RuntimeError("the planner did not come or go")
 
 
-class Demonstrations(GoalTest):
+class DemonstrationSwitchNode(GoalTest):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -146,5 +146,5 @@ class Demonstrations(GoalTest):
 
 
 if __name__ == "__main__":
-    rospy.init_node("test_demonstrations")
-    rostest.rosrun("prf_decision", "demonstrations", Demonstrations)
+    rospy.init_node("test_demonstration_switch_node")
+    rostest.rosrun("prf_decision", "demonstration_switch_node", DemonstrationSwitchNode)

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "conversions.hpp"
+
+#include <algorithm>
+#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <prf_core/require.hpp>
+#include <prf_ros/conversions.hpp>
+
+namespace prf_decision {
+namespace {
+
+void require_frame(const std::string& frame_id, const std::string& wanted) {
+  prf_core::require(frame_id == wanted, "frame_id", frame_id, wanted);
+}
+
+geometry_msgs::Transform to_transform(const Pose& pose) {
+  geometry_msgs::Transform transform;
+  transform.translation = prf_ros::to_vector3(pose.position);
+  transform.rotation = prf_ros::to_message(pose.orientation);
+  return transform;
+}
+
+}  // namespace
+
+std::optional<int> arm_joint(const RobotNames& robot, const std::string& name) {
+  const std::string& prefix = robot.joint_prefix;
+  if (name.size() != prefix.size() + 1 || name.rfind(prefix, 0) != 0) return std::nullopt;
+  const int joint = name.back() - '1';
+  return joint >= 0 && joint <= 6 ? std::optional(joint) : std::nullopt;
+}
+
+std::optional<Pose> measured_hand(const RobotNames& robot, const sensor_msgs::JointState& joints) {
+  jaco_kinematics::JointVector q;
+  int found = 0;
+  for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
+    const auto joint = arm_joint(robot, joints.name[i]);
+    if (!joint) continue;
+    q[*joint] = joints.position[i];
+    ++found;
+  }
+  if (found != 7 || !q.allFinite()) return std::nullopt;
+  return prf_core::pose_from(jaco_kinematics::forward(q));
+}
+
+std::shared_ptr<const TargetForecast> to_core(const RobotNames& robot,
+                                              const prf_msgs::TargetForecast& message) {
+  require_frame(message.header.frame_id, robot.planning_frame);
+  return std::make_shared<TargetForecast>(prf_ros::to_core(message));
+}
+
+std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
+                                          const prf_msgs::SkillTrajectory& message) {
+  require_frame(message.header.frame_id, robot.planning_frame);
+  auto trajectory = std::make_shared<Trajectory>();
+  for (const auto& pose : message.poses) trajectory->poses.push_back(prf_ros::to_core(pose));
+  for (const auto& time : message.time_from_start) {
+    trajectory->times.push_back(prf_ros::to_core(time));
+  }
+  trajectory->goal_in_target = prf_ros::to_core(message.goal_in_target);
+  trajectory->validate();
+  return trajectory;
+}
+
+prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& progress) {
+  prf_msgs::ExecutionProgress message;
+  message.header.stamp = prf_ros::to_ros_time(progress.stamp);
+  message.header.frame_id = robot.planning_frame;
+  message.forecast_stamp = prf_ros::to_ros_time(progress.forecast_stamp);
+  message.state = static_cast<std::uint8_t>(progress.state);
+  message.reason = progress.reason;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    message.posterior[static_cast<std::size_t>(i)] = progress.posterior[i];
+  }
+  message.cursor = progress.cursor;
+  message.frozen = static_cast<std::uint32_t>(progress.frozen);
+  message.time_to_go = prf_ros::to_ros_duration(progress.time_to_go);
+  message.demonstration = progress.demonstration.name;
+  message.demonstration_switch = progress.demonstration.number;
+  return message;
+}
+static_assert(static_cast<int>(State::kWaiting) == prf_msgs::ExecutionProgress::WAITING);
+static_assert(static_cast<int>(State::kForward) == prf_msgs::ExecutionProgress::FORWARD);
+static_assert(static_cast<int>(State::kPause) == prf_msgs::ExecutionProgress::PAUSE);
+static_assert(static_cast<int>(State::kReverse) == prf_msgs::ExecutionProgress::REVERSE);
+static_assert(static_cast<int>(State::kTracking) == prf_msgs::ExecutionProgress::TRACKING);
+static_assert(static_cast<int>(State::kRetract) == prf_msgs::ExecutionProgress::RETRACT);
+static_assert(static_cast<int>(State::kDone) == prf_msgs::ExecutionProgress::DONE);
+static_assert(static_cast<int>(State::kStopped) == prf_msgs::ExecutionProgress::STOPPED);
+
+trajectory_msgs::MultiDOFJointTrajectory to_message(const RobotNames& robot, Stamp stamp,
+                                                    const std::optional<MovingPose>& setpoint) {
+  trajectory_msgs::MultiDOFJointTrajectory message;
+  message.header.stamp = prf_ros::to_ros_time(stamp);
+  message.header.frame_id = robot.planning_frame;
+  message.joint_names = {robot.hand_frame};
+  if (!setpoint) return message;
+  message.points.resize(1);
+  message.points[0].transforms.push_back(to_transform(setpoint->pose));
+  message.points[0].velocities.push_back(
+      prf_ros::to_twist(setpoint->linear_velocity, setpoint->angular_velocity));
+  return message;
+}
+
+}  // namespace prf_decision

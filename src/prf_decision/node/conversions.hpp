@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Messages to core types and back. Messages that must not be acted on throw std::invalid_argument.
+#pragma once
+
+#include <prf_msgs/ExecutionProgress.h>
+#include <prf_msgs/SkillTrajectory.h>
+#include <prf_msgs/TargetForecast.h>
+#include <sensor_msgs/JointState.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "params.hpp"
+#include "prf_decision/decision.hpp"
+
+namespace prf_decision {
+
+// 0 .. 6, from base to hand; none for a finger or a leg.
+[[nodiscard]] std::optional<int> arm_joint(const RobotNames& robot, const std::string& name);
+
+// The measured hand; none when a joint of the arm is missing or not finite.
+[[nodiscard]] std::optional<Pose> measured_hand(const RobotNames& robot,
+                                                const sensor_msgs::JointState& joints);
+
+[[nodiscard]] std::shared_ptr<const TargetForecast> to_core(
+    const RobotNames& robot, const prf_msgs::TargetForecast& message);
+[[nodiscard]] std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
+                                                        const prf_msgs::SkillTrajectory& message);
+
+[[nodiscard]] prf_msgs::ExecutionProgress to_message(const RobotNames& robot,
+                                                     const Progress& progress);
+[[nodiscard]] trajectory_msgs::MultiDOFJointTrajectory to_message(
+    const RobotNames& robot, Stamp stamp, const std::optional<MovingPose>& setpoint);
+
+}  // namespace prf_decision

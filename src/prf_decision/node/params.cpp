@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "params.hpp"
+
+#include <cmath>
+#include <prf_core/require.hpp>
+
+#include "prf_decision/hmm_file.hpp"
+
+namespace prf_decision {
+namespace {
+
+// Bounded before it becomes whole nanoseconds, which cannot hold NaN or infinity.
+Duration checked_seconds(const std::string& name, double value) {
+  constexpr double kLongest = 1e6;  // s, 11 days: longer than any run
+  prf_core::require(std::abs(value) <= kLongest, name, value, "finite and at most 1e6 s");
+  return from_seconds(value);
+}
+
+GuardParams load_guards(prf_ros::PrivateParameters& values) {
+  GuardParams guards;
+  const auto coast = values.numbers("coast_limits", 3);
+  guards.pause_after = checked_seconds("coast_limits[0]", coast[0]);
+  guards.reverse_after = checked_seconds("coast_limits[1]", coast[1]);
+  guards.stop_after = checked_seconds("coast_limits[2]", coast[2]);
+  const auto shoulder = values.numbers("shoulder", 3);
+  guards.shoulder = {shoulder[0], shoulder[1], shoulder[2]};
+  guards.max_reach = values.number("max_reach");
+  guards.workspace_radius = values.number("workspace_radius");
+  guards.max_target_speed = values.number("max_target_speed");
+  return guards;
+}
+
+DecisionParams load_decision(prf_ros::PrivateParameters& values) {
+  const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
+  DecisionParams params;
+  params.framework = values.flag("framework");
+  params.autostart = values.flag("autostart");
+  params.max_gap = seconds("max_wait");
+  params.lead = seconds("lead");
+  params.hold_time = seconds("hold_time");
+  params.dwell_time = seconds("dwell_time");
+  params.time_limit = seconds("time_limit");
+  params.tracking_tolerance = values.number("tracking_tolerance");
+  params.approach_length = values.number("approach_length");
+  const auto speed = values.numbers("catch_up_speed", 2);
+  params.catch_up = {speed[0], speed[1], values.number("catch_up_time")};
+  params.guards = load_guards(values);
+  return params;
+}
+
+}  // namespace
+
+void RobotNames::validate() const {
+  prf_core::require(!planning_frame.empty(), "planning_frame", planning_frame, "a frame's name");
+  prf_core::require(!hand_frame.empty(), "hand_frame", hand_frame, "a frame's name");
+  prf_core::require(!joint_prefix.empty(), "joint_prefix", joint_prefix, "a prefix of names");
+}
+
+void DecisionNodeParams::validate() const {
+  robot.validate();
+  gate.validate();
+  decision.validate();
+}
+
+DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
+  const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
+  DecisionNodeParams params;
+  params.robot = {values.text("planning_frame"), values.text("hand_frame"),
+                  values.text("joint_prefix")};
+  params.gate.pipeline_delay = seconds("pipeline_delay");
+  params.gate.camera_period = seconds("camera_period");
+  params.gate.max_wait = seconds("max_wait");
+  params.decision = load_decision(values);
+  const std::string hmm_file = values.text("hmm_file");
+  values.refuse_unknown();
+  params.decision.hmm = load_hmm(hmm_file);
+  params.validate();
+  return params;
+}
+
+std::vector<prf_ros::ReconfigurableParams::Number> reconfigurable_numbers(
+    const DecisionParams& params) {
+  return {{"dwell_time", to_seconds(params.dwell_time), "s, least time in a state for the HMM"},
+          {"hold_time", to_seconds(params.hold_time), "s, to track until done; next execution"},
+          {"lead", to_seconds(params.lead), "s, the tracked goal is so much after the tick"},
+          {"catch_up_time", params.catch_up.time_constant, "s, with which a small gap closes"},
+          {"tracking_tolerance", params.tracking_tolerance, "m, that counts as tracking"},
+          {"max_target_speed", params.guards.max_target_speed, "m/s, faster ones are refused"}};
+}
+
+DecisionParams with_reconfigured(const DecisionParams& params,
+                                 const prf_ros::ReconfigurableParams::Values& values) {
+  DecisionParams changed = params;
+  changed.dwell_time = checked_seconds("dwell_time", values.at("dwell_time"));
+  changed.hold_time = checked_seconds("hold_time", values.at("hold_time"));
+  changed.lead = checked_seconds("lead", values.at("lead"));
+  changed.catch_up.time_constant = values.at("catch_up_time");
+  changed.tracking_tolerance = values.at("tracking_tolerance");
+  changed.guards.max_target_speed = values.at("max_target_speed");
+  return changed;
+}
+
+}  // namespace prf_decision

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The decision node's parameters; config/decision.yaml states units and meaning.
+#pragma once
+
+#include <prf_ros/private_parameters.hpp>
+#include <prf_ros/reconfigurable.hpp>
+#include <string>
+#include <vector>
+
+#include "prf_decision/decision.hpp"
+#include "prf_decision/tick_gate.hpp"
+
+namespace prf_decision {
+
+struct RobotNames {
+  std::string planning_frame;  // of everything received and published
+  std::string hand_frame;      // that the set-point is for
+  std::string joint_prefix;    // joints from base to hand: this and 1 .. 7
+
+  void validate() const;
+};
+
+struct DecisionNodeParams {
+  RobotNames robot;
+  GateParams gate;
+  DecisionParams decision;
+
+  void validate() const;
+};
+
+// std::invalid_argument names the parameter or the HMM file, its value and the bound.
+[[nodiscard]] DecisionNodeParams load_params(prf_ros::PrivateParameters values);
+
+// The parameters that can be changed while the node runs, and `params` with changed ones.
+[[nodiscard]] std::vector<prf_ros::ReconfigurableParams::Number> reconfigurable_numbers(
+    const DecisionParams& params);
+[[nodiscard]] DecisionParams with_reconfigured(const DecisionParams& params,
+                                               const prf_ros::ReconfigurableParams::Values& values);
+
+}  // namespace prf_decision
