@@ -41,7 +41,7 @@ def judge_main(words):
 
 def inspect_main(words):
     parser = argparse.ArgumentParser(
-        prog="inspect", description="Prints a trial as a timeline: phases and reasons, sights, "
+        prog="inspect", description="Prints a trial as a timeline: phases and reasons, detections, "
         "contacts, what the arm could not do, solve times, drops.")
     parser.add_argument("bag")
     parser.add_argument("--json", metavar="FILE", help="writes the events there too")

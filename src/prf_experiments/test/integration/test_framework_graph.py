@@ -7,10 +7,10 @@ import unittest
 import rosgraph
 import rostest
 
-from prf_experiments.record import recording
+from prf_experiments.record import topics
 from prf_experiments.run import connections
 
-NODES = ["/" + name for name in connections.FRAMEWORK_NODES]
+NODES = ["/" + name for name in topics.TABLE.framework_nodes]
 
 
 class FrameworkGraph(unittest.TestCase):
@@ -41,13 +41,13 @@ class FrameworkGraph(unittest.TestCase):
                          self.master.getParam("/skill_planner/approach_length"))
 
     def test_no_node_hears_the_ground_truth(self):
-        truth = {"/" + topic for topic in recording.GROUND_TRUTH}
+        truth = {"/" + topic for topic in topics.GROUND_TRUTH}
         for node in NODES:
             self.assertEqual(self.heard[node] & truth, set(), node)
             self.assertFalse([topic for topic in self.heard[node] if "ground_truth" in topic])
 
     def test_sensor_topics_are_heard_by_their_names(self):
-        for topic, nodes in connections.SENSOR_SUBSCRIBERS.items():
+        for topic, nodes in topics.TABLE.sensor_readers.items():
             for node in nodes:
                 self.assertIn(topic, self.heard["/" + node])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One seed, one outcome; and the framework alone answers a bag as it answered the simulator."""
+"""One seed, one result; and the framework publishes for a bag what it did for the simulator."""
 import json
 import os
 import sys
@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
 import runs  # noqa: E402
-from prf_experiments.record import digest, recording  # noqa: E402
+from prf_experiments.record import digest, topics  # noqa: E402
 
 SECONDS = 12.0  # enough for every node to work; too short for a verdict
 CUT_SHORT = 3  # exit code of run_trial for that
@@ -36,7 +36,7 @@ class Repeatability(unittest.TestCase):
     def test_a_second_run_with_the_seed_gives_the_same_messages(self):
         ours, theirs = digest.digests(self.bag), digest.digests(self.trial(1))
         self.assertEqual(digest.differences(ours, theirs), [])
-        for topic in recording.SENSORS + recording.OUTPUTS:
+        for topic in topics.SENSORS + topics.OUTPUTS:
             self.assertTrue(any(name == "/" + topic for name, _ in ours), topic)
 
     def test_another_seed_gives_other_images(self):
@@ -44,7 +44,7 @@ class Repeatability(unittest.TestCase):
                         for bag in (self.bag, self.trial(2)))
         self.assertNotEqual(ours, theirs)
 
-    def test_replay_gives_the_same_answers(self):
+    def test_replay_gives_the_same_outputs(self):
         result = os.path.join(self.results, "replay.json")
         run = runs.run("replay", self.bag, "--json", result)
         self.assertEqual(run.code, 0, run.out + run.error)

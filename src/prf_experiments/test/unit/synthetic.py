@@ -48,12 +48,12 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
     states[: count // 2] = judge.STATES.index("FORWARD")
     states[-1] = judge.STATES.index(state)
     posteriors = np.tile([0.8, 0.15, 0.05], (count, 1))
-    sights = np.tile([0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0], (len(images), 1))
+    detections = np.tile([0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0], (len(images), 1))
     return recording.Recording(
         ticks=ticks, tag=still(ticks, TAG), camera=camera,
         end_effector=still(ticks, camera_pose(0, 0.2)),
         base=still(ticks, BASE), platform=still(ticks, STILL), contact_stamps=ticks, contacts=[],
-        sight_stamps=images, sights=sights, images=len(images),
+        detection_stamps=images, detections=detections, images=len(images),
         progress=recording.Progress(ticks, states, posteriors, np.zeros(count), [""] * count),
         forecasts=recording.Forecasts(images, np.ones(len(images), dtype=int),
                                       [np.array([0.0, 0.5])] * len(images),
@@ -106,15 +106,15 @@ def write_bag(path, data, skipped=(), hand=None, seed=0):
             START, "/robot_state_publisher")
         writer.add("trial/description", std_msgs.msg.String('{"command": "made up"}'), START,
                    "/observer")
-        for complaint in data.complaints:
+        for warning in data.warnings:
             writer.add("rosout", rosgraph_msgs.msg.Log(
-                level=rosgraph_msgs.msg.Log.WARN, name="/" + complaint.node, msg=complaint.text,
-                header=std_msgs.msg.Header(stamp=rospy.Time(0, int(complaint.stamp)))),
-                complaint.stamp, "/" + complaint.node)
+                level=rosgraph_msgs.msg.Log.WARN, name="/" + warning.node, msg=warning.text,
+                header=std_msgs.msg.Header(stamp=rospy.Time(0, int(warning.stamp)))),
+                warning.stamp, "/" + warning.node)
         _add_diagnostics(writer, data)
         for row, stamp in enumerate(data.ticks):
             _add_tick(writer, data, row, stamp, hand)
-        for row, stamp in enumerate(data.sight_stamps):
+        for row, stamp in enumerate(data.detection_stamps):
             _add_image(writer, data, row, stamp, noise)
 
 
@@ -168,9 +168,9 @@ def _add_image(writer, data, row, stamp, noise):
     writer.add("camera/image_raw", image, stamp)
     writer.add("camera/camera_info", _stamped(sensor_msgs.msg.CameraInfo, stamp), stamp)
     detections = _stamped(prf_msgs.msg.TagDetectionArray, stamp, "camera_optical_frame")
-    if np.isfinite(data.sights[row, 0]):
+    if np.isfinite(data.detections[row, 0]):
         detection = prf_msgs.msg.TagDetection(family="tag36h11", id=0)
-        detection.pose.pose = _pose(data.sights[row])
+        detection.pose.pose = _pose(data.detections[row])
         detections.detections = [detection]
     writer.add("tag_detections", detections, stamp, "/tag_detector")
     forecast = _stamped(prf_msgs.msg.TargetForecast, stamp, "j2s7s300_link_base")

@@ -18,6 +18,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from prf_msgs import enums
+from prf_msgs.msg import ExecutionProgress
+
 from prf_experiments import geometry
 from prf_experiments.judge import target
 
@@ -39,12 +42,11 @@ FALLEN_TILT = np.radians(30.0)  # rad, body's z axis to the deck's normal
 LYING = ("body", "platform")  # links whose contact means the same
 
 TICK = SECOND // 100  # joint_states and everything published with them
-MAX_UNANSWERED_IMAGES = 3  # in flight when the trial ends
+MAX_IMAGES_IN_FLIGHT = 3  # in flight when the trial ends
 
-STATES = ["WAITING", "FORWARD", "PAUSE", "REVERSE", "TRACKING", "RETRACT", "DONE", "STOPPED"]
-EXECUTION = ("FORWARD", "PAUSE", "REVERSE")  # the phases in which the skill is executed
-TRACKING = ("TRACKING",)
-DONE, STOPPED = STATES.index("DONE"), STATES.index("STOPPED")
+STATES = enums.names(ExecutionProgress)
+EXECUTION = (ExecutionProgress.FORWARD, ExecutionProgress.PAUSE, ExecutionProgress.REVERSE)
+TRACKING = (ExecutionProgress.TRACKING,)
 
 
 @dataclass
@@ -80,12 +82,12 @@ def held(stamps, inside, hold):
 
 
 def longest_out_of_view(stamps, seen):
-    """Longest time in ns between one sight of the tag and the next (or the last image)."""
+    """Longest time in ns between two detections of the tag, or the last one and the last image."""
     if not np.any(seen):
         return 0
     first = int(np.argmax(seen))
-    sighted = np.append(stamps[first:][seen[first:]], stamps[-1])
-    return int(np.max(np.diff(sighted)))
+    detected = np.append(stamps[first:][seen[first:]], stamps[-1])
+    return int(np.max(np.diff(detected)))
 
 
 def is_arm(link):
@@ -137,10 +139,10 @@ def defect(recording):
     for name in ("tag", "camera", "base", "platform"):
         if not np.all(np.isfinite(getattr(recording, name).values)):
             return f"ground_truth/{name} is not finite"
-    unanswered = recording.images - len(recording.sight_stamps)
-    if not 0 <= unanswered <= MAX_UNANSWERED_IMAGES:
-        return f"{recording.images} images but {len(recording.sight_stamps)} tag_detections"
-    finished = (recording.progress.states[-1] in (DONE, STOPPED)
+    in_flight = recording.images - len(recording.detection_stamps)
+    if not 0 <= in_flight <= MAX_IMAGES_IN_FLIGHT:
+        return f"{recording.images} images but {len(recording.detection_stamps)} tag_detections"
+    finished = (recording.progress.states[-1] in (ExecutionProgress.DONE, ExecutionProgress.STOPPED)
                 or _fall(recording)[0] is not None)
     duration = recording.ticks[-1] - recording.ticks[0]
     if not finished and duration < TIME_LIMIT - 2 * TICK:
@@ -173,9 +175,8 @@ def _fall(recording):
     return int(min(fallen)) if fallen else None, float(np.min(height)), float(np.max(tilt))
 
 
-def _lateral_statistics(recording, phases, stamps, lateral):
-    """Mean and standard deviation of the lateral distance in some phases, mm, or two None."""
-    states = [STATES.index(name) for name in phases]
+def _lateral_statistics(recording, states, stamps, lateral):
+    """Mean and standard deviation of the lateral distance in some states, mm, or two None."""
     chosen = lateral[np.isin(stamps, recording.progress.stamps[
         np.isin(recording.progress.states, states)])]
     if not chosen.size:
@@ -193,13 +194,13 @@ def judge(recording):
     deadline = recording.start + TIME_LIMIT
     reached = _reached(stamps, lateral, along, REACHED_BOUND, REACHED_HOLD, deadline)
     inspected = _reached(stamps, lateral, along, INSPECTED_BOUND, INSPECTED_HOLD, deadline)
-    seen = np.isfinite(recording.sights[:, 0])
-    out_of_view = longest_out_of_view(recording.sight_stamps, seen)
+    seen = np.isfinite(recording.detections[:, 0])
+    out_of_view = longest_out_of_view(recording.detection_stamps, seen)
     touching = arm_contacts(recording.contacts)
     pairs = strongest_by_pair(touching)
     force = max(pairs.values(), default=0.0)
     fall, height, tilt = _fall(recording)
-    stopped = np.flatnonzero(recording.progress.states == STOPPED)
+    stopped = np.flatnonzero(recording.progress.states == ExecutionProgress.STOPPED)
 
     failures, issues = [], []
     if stopped.size:
@@ -227,7 +228,7 @@ def judge(recording):
         "duration_s": float(recording.seconds(recording.ticks[-1])),
         "reached_s": None if reached is None else float(recording.seconds(reached)),
         "inspected_s": None if inspected is None else float(recording.seconds(inspected)),
-        "first_seen_s": (float(recording.seconds(recording.sight_stamps[np.argmax(seen)]))
+        "first_seen_s": (float(recording.seconds(recording.detection_stamps[np.argmax(seen)]))
                          if np.any(seen) else None),
         "longest_out_of_view_s": out_of_view * 1e-9,
         "images_seen_fraction": float(np.mean(seen)),

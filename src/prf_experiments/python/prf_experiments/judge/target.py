@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the target was in the arm's base frame, and where it was foretold to be."""
+"""Where the target was in the arm's base frame, and where it was predicted to be."""
 import numpy as np
 
 from prf_experiments import geometry
@@ -32,7 +32,7 @@ def true(data):
 
 
 def forecast(data, horizon=SHOWN_HORIZON):
-    """(stamps ns it was foretold for, positions (n, 3) m, the nearest horizon there is, s)."""
+    """(stamps ns it was predicted for, positions (n, 3) m, the nearest horizon there is, s)."""
     forecasts = data.forecasts
     usable = [row for row, horizons in enumerate(forecasts.horizons) if len(horizons)]
     if not usable:

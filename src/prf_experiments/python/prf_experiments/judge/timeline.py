@@ -4,15 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prf_msgs import enums
+from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
+
 from prf_experiments.judge import judge
 
-FORECASTS = ["no target", "tracking", "coasting", "lost"]  # TargetForecast's status
-PLANS = ["no plan", "solved", "relaxed", "kept the plan before"]  # SkillTrajectory's status
-CONTROLS = ["following", "holding", "limited", "out of reach", "stale set-point",
-            "invalid set-point"]  # ControlStatus' code
-ORDINARY_CONTROLS = [CONTROLS.index("following"), CONTROLS.index("holding")]
+FORECASTS, PLANS, CONTROLS = (
+    [name.lower().replace("_", " ") for name in enums.names(message_type)]
+    for message_type in (TargetForecast, SkillTrajectory, ControlStatus))
+ORDINARY_CONTROLS = (ControlStatus.FOLLOWING, ControlStatus.HOLDING)
 GAP = judge.SECOND // 2  # what happens again within it is one event
-OUT_OF_VIEW = judge.SECOND // 5  # shorter gaps in the sight of the tag are not told
+OUT_OF_VIEW = judge.SECOND // 5  # shorter gaps between detections are not told
 MOST_OF_A_KIND = 25  # events; what exceeds it is counted only
 COUNTS_OF_NO_LOSS = {"ticks", "images", "tags", "answers", "measurements accepted",
                      "starts from measured joints"}
@@ -51,16 +53,16 @@ def _phases(data):
                     judge.STATES[progress.states[row]] + (f": {reason}" if reason else ""))
 
 
-def _sights(data):
-    seen = data.sight_stamps[np.isfinite(data.sights[:, 0])]
+def _detections(data):
+    seen = data.detection_stamps[np.isfinite(data.detections[:, 0])]
     if not len(seen):
-        yield Event(data.start, "sight", "the tag is never seen")
+        yield Event(data.start, "detection", "the tag is never seen")
         return
-    yield Event(int(seen[0]), "sight", "the tag is seen for the first time")
-    until = np.append(seen[1:], data.sight_stamps[-1])
+    yield Event(int(seen[0]), "detection", "the tag is seen for the first time")
+    until = np.append(seen[1:], data.detection_stamps[-1])
     for lost, found in zip(seen, until):
         if found - lost > OUT_OF_VIEW:
-            yield Event(int(lost), "sight",
+            yield Event(int(lost), "detection",
                         f"the tag is out of view for {1e-9 * (found - lost):.2f} s")
 
 
@@ -100,12 +102,12 @@ def _contacts(data):
                         f"at most {force:.1f} N within {_lasting(stamps[part])}")
 
 
-def _complaints(data):
+def _logged_warnings(data):
     told = set(data.control.reasons)  # these are told as what the arm could not do
-    for complaint in data.complaints:
-        if complaint.text not in told:
-            yield Event(max(complaint.stamp, data.start), "log",
-                        f"log of {complaint.node}: {complaint.text}")
+    for warning in data.warnings:
+        if warning.text not in told:
+            yield Event(max(warning.stamp, data.start), "log",
+                        f"log of {warning.node}: {warning.text}")
 
 
 def _milestones(data, figures):
@@ -129,8 +131,8 @@ def _limited(data, events):
 def events(data, figures):
     """All events in the order of time. `figures` are those of the verdict."""
     told = []
-    for kind in (_phases(data), _sights(data), _forecasts(data), _plans(data), _control(data),
-                 _contacts(data), _complaints(data), _milestones(data, figures)):
+    for kind in (_phases(data), _detections(data), _forecasts(data), _plans(data), _control(data),
+                 _contacts(data), _logged_warnings(data), _milestones(data, figures)):
         told += _limited(data, kind)
     return sorted(told, key=lambda event: event.stamp)
 

@@ -9,9 +9,9 @@ which carry wall-clock figures, and the trial's description of itself (command, 
 import hashlib
 from dataclasses import dataclass
 
-from prf_experiments.record import recording
+from prf_experiments.record import recording, topics
 
-EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg", "/" + recording.DESCRIPTION}
+EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg", "/" + topics.DESCRIPTION}
 
 
 @dataclass

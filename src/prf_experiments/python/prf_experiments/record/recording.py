@@ -9,19 +9,7 @@ import rosbag
 import rosgraph_msgs.msg
 
 from prf_experiments import geometry
-
-GROUND_TRUTH = ["ground_truth/platform", "ground_truth/base", "ground_truth/tag",
-                "ground_truth/camera", "ground_truth/end_effector", "ground_truth/contacts"]
-SENSORS = ["joint_states", "camera/image_raw", "camera/camera_info"]
-OUTPUTS = ["tag_detections", "target/forecast", "skill/trajectory", "execution/progress",
-           "execution/setpoint", "joint_command", "control/status"]
-TRANSFORMS = ["tf", "tf_static"]
-EXEMPT = ["diagnostics", "rosout"]
-DESCRIPTION = "trial/description"
-GUIDE = "guide/wrench"
-
-# Everything a trial's bag holds; an explicit list, so that what is missing is noticed.
-RECORDED = (["clock"] + SENSORS + GROUND_TRUTH + OUTPUTS + TRANSFORMS + EXEMPT + [DESCRIPTION])
+from prf_experiments.record import topics
 
 PLANNING_FRAME = "j2s7s300_link_base"
 BODY_FRAME = "base_link"
@@ -78,7 +66,7 @@ class Control:
 
 
 @dataclass
-class Complaint:
+class LoggedWarning:
     stamp: int  # ns
     node: str
     text: str
@@ -94,15 +82,15 @@ class Recording:
     platform: Poses
     contact_stamps: np.ndarray
     contacts: list
-    sight_stamps: np.ndarray  # stamp of each TagDetectionArray, ns
-    sights: np.ndarray  # (n, 7) tag in the camera's optical frame, NaN where it was not seen
+    detection_stamps: np.ndarray  # stamp of each TagDetectionArray, ns
+    detections: np.ndarray  # (n, 7) tag in the camera's optical frame, NaN where it was not seen
     images: int  # camera/image_raw messages
     progress: Progress
     forecasts: Forecasts
     plans: list
     control: Control
     arm_base_in_body: np.ndarray  # (7,), from tf_static
-    complaints: list = field(default_factory=list)  # warnings and worse of rosout
+    warnings: list = field(default_factory=list)  # warnings and worse of rosout
     diagnostics: dict = field(default_factory=dict)  # {node: {key: [text of each report]}}
     description: dict = field(default_factory=dict)
 
@@ -137,7 +125,7 @@ def open_bag(path):
 def description(path):
     """What a trial's bag says about itself: command, arguments, versions; {} when nothing."""
     with open_bag(path) as bag:
-        for _, message, _ in bag.read_messages(topics=["/" + DESCRIPTION]):
+        for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
             return json.loads(message.data)
     return {}
 
@@ -158,9 +146,9 @@ class _Reader:
         self._stamps, self._rows = {}, {}
         self._fixed = {}  # child: (parent, pose of child in parent)
         self.contacts, self.plans, self.horizons, self.positions = [], [], [], []
-        self.complaints, self.diagnostics, self.description = [], {}, {}
-        self._kept = {DESCRIPTION: self._keep_description, "tf_static": self._keep_transforms,
-                      "rosout": self._keep_complaint, "diagnostics": self._keep_diagnostics}
+        self.warnings, self.diagnostics, self.description = [], {}, {}
+        self._kept = {topics.DESCRIPTION: self._keep_description, "tf_static": self._keep_transforms,
+                      "rosout": self._keep_warning, "diagnostics": self._keep_diagnostics}
         self._rows_of = {
             "joint_states": lambda message: None,
             "ground_truth/platform": lambda message: pose_values(message.pose.pose),
@@ -197,9 +185,9 @@ class _Reader:
             self._fixed[item.child_frame_id] = (item.header.frame_id,
                                                 transform_values(item.transform))
 
-    def _keep_complaint(self, message):
+    def _keep_warning(self, message):
         if message.level >= rosgraph_msgs.msg.Log.WARN:
-            self.complaints.append(Complaint(message.header.stamp.to_nsec(),
+            self.warnings.append(LoggedWarning(message.header.stamp.to_nsec(),
                                              message.name.lstrip("/"), message.msg.strip()))
 
     def _keep_diagnostics(self, message):
@@ -267,7 +255,8 @@ def read(path, tag_id=0):
     with open_bag(path) as bag:
         counts = {name.lstrip("/"): info.message_count
                   for name, info in bag.get_type_and_topic_info().topics.items()}
-        missing = [name for name in SENSORS + GROUND_TRUTH + OUTPUTS if not counts.get(name)]
+        missing = [name for name in topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS
+                   if not counts.get(name)]
         if missing:
             raise RecordingError(f"{path}: no message of " + ", ".join(missing))
         try:
@@ -287,13 +276,13 @@ def read(path, tag_id=0):
         platform=reader.poses("ground_truth/platform"),
         contact_stamps=reader.stamps("ground_truth/contacts"),
         contacts=reader.contacts,
-        sight_stamps=reader.stamps("tag_detections"),
-        sights=reader.poses("tag_detections").values,
+        detection_stamps=reader.stamps("tag_detections"),
+        detections=reader.poses("tag_detections").values,
         images=counts["camera/image_raw"],
         progress=reader.progress(),
         forecasts=reader.forecasts(),
         plans=reader.plans,
         control=reader.control(),
         arm_base_in_body=arm_base_in_body,
-        complaints=reader.complaints, diagnostics=reader.diagnostics,
+        warnings=reader.warnings, diagnostics=reader.diagnostics,
         description=reader.description)

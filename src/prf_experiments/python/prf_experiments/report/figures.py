@@ -19,7 +19,7 @@ MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize"
 PREDICTED = {"color": "#0072B2", "linewidth": 1.1, "linestyle": (0, (4, 2))}
 PLANNED = {"color": "#0072B2", "linewidth": 2.6, "linestyle": (0, (3, 2)), "alpha": 0.7}
 DEMONSTRATED = {"color": "#009E73", "linewidth": 1.4, "linestyle": (0, (1, 1.5))}
-BELIEFS = [("forward", {"color": "#009E73", "linestyle": "-"}),
+POSTERIORS = [("forward", {"color": "#009E73", "linestyle": "-"}),
            ("pause", {"color": "#E69F00", "linestyle": (0, (5, 2))}),
            ("reverse", {"color": "#000000", "linestyle": (0, (1, 1.5))})]
 BOUND = {"color": "0.45", "linewidth": 0.8, "linestyle": (0, (6, 3))}
@@ -62,12 +62,12 @@ def _states_panel(axes, recording):
 
 
 def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"):
-    """Target in the arm's base, the belief about it and what was done.
+    """Target in the arm's base, the posterior of the HMM and the phase.
 
     truth, measured, predicted: (stamps ns, (n, 3) m) each; `shown` names the axes.
     """
     figure = Figure(figsize=(9.0, 3.2 + 1.8 * len(shown)), layout="constrained")
-    *panels, belief, phase = figure.subplots(
+    *panels, posterior, phase = figure.subplots(
         len(shown) + 2, 1, sharex=True, height_ratios=[1] * len(shown) + [0.8, 0.8])
     for axis, panel in (("xyz".index(name), panel) for name, panel in zip(shown, panels)):
         _grid(panel)
@@ -81,18 +81,18 @@ def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"
         slack = max(5.0, 0.25 * (high - low))
         panel.set_ylim(low - slack, high + slack)
     panels[0].legend(loc="upper right", fontsize=8, ncols=3)
-    _grid(belief)
-    for index, (name, style) in enumerate(BELIEFS):
-        times, believed = thin(recording.seconds(recording.progress.stamps),
+    _grid(posterior)
+    for index, (name, style) in enumerate(POSTERIORS):
+        times, probability = thin(recording.seconds(recording.progress.stamps),
                              recording.progress.posteriors[:, index])
-        belief.plot(times, believed, label=name, linewidth=1.3, **style)
-    belief.set_ylim(-0.05, 1.05)
-    belief.set_ylabel("HMM belief", fontsize=9)
-    belief.legend(loc="center right", fontsize=8)
+        posterior.plot(times, probability, label=name, linewidth=1.3, **style)
+    posterior.set_ylim(-0.05, 1.05)
+    posterior.set_ylabel("HMM posterior", fontsize=9)
+    posterior.legend(loc="center right", fontsize=8)
     _grid(phase)
     _states_panel(phase, recording)
     phase.set_xlabel("time, s", fontsize=9)
-    return svg(figure, "Target position, HMM belief and phase over time")
+    return svg(figure, "Target position, HMM posterior and phase over time")
 
 
 def distances(recording, stamps, lateral, along, contacts):
@@ -112,8 +112,8 @@ def distances(recording, stamps, lateral, along, contacts):
             panel.annotate(name, (1.0, 1e3 * bound), xycoords=("axes fraction", "data"),
                            ha="right", va="bottom", fontsize=8, color="0.35")
         panel.set_ylabel(label, fontsize=9)
-    seen = np.isfinite(recording.sights[:, 0])
-    panels[2].plot(recording.seconds(recording.sight_stamps[seen]), np.ones(seen.sum()), **SEEN)
+    seen = np.isfinite(recording.detections[:, 0])
+    panels[2].plot(recording.seconds(recording.detection_stamps[seen]), np.ones(seen.sum()), **SEEN)
     panels[2].set_yticks([1], ["seen"])
     panels[2].set_ylim(0.5, 1.5)
     panels[2].set_ylabel("tag", fontsize=9)
@@ -128,7 +128,7 @@ def distances(recording, stamps, lateral, along, contacts):
     panels[3].set_yticks([0, 1, 10, 50], ["0", "1", "10", "50"])
     panels[3].set_ylabel("contact, N", fontsize=9)
     panels[3].set_xlabel("time, s", fontsize=9)
-    return svg(figure, "Distance of the tag from the optical axis and along it, sight, contacts")
+    return svg(figure, "Distance of the tag from the optical axis and along it, contacts")
 
 
 def _equal_axes(axes, points):

@@ -20,8 +20,8 @@ MEANING = {"S": "success", "P": "partial success", "F": "failure", "INVALID": "n
 def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Markup:
     """The target over time; what was measured is placed with the encoders' transforms."""
     camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), recording.PLANNING_FRAME,
-                           "camera_optical_frame", data.sight_stamps)
-    measured = data.sight_stamps, geometry.compose(camera, data.sights)[:, :3]
+                           "camera_optical_frame", data.detection_stamps)
+    measured = data.detection_stamps, geometry.compose(camera, data.detections)[:, :3]
     *predicted, horizon = target.forecast(data)
     return figures.target_over_time(data, target.true(data), measured, predicted, horizon,
                                     shown)
@@ -40,7 +40,7 @@ def draw(bag: str, data: recording.Recording,
     camera_stamps, camera_at, tag_at = target.matched(data.camera, data.tag)
     lateral, along = judge.tag_in_camera(camera_at, tag_at)
     return [
-        ("Target, belief and phase", "In the arm's base frame. Measured: detections placed "
+        ("Target, posterior and phase", "In the arm's base frame. Measured: detections placed "
          "with the transforms of the encoders. True: simulator.",
          target_figure(bag, data)),
         ("Distance to the target", "By ground truth; dashed lines are the bounds of the verdict.",

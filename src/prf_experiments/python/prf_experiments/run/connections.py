@@ -5,29 +5,10 @@ import xmlrpc.client
 
 import rosgraph
 
+from prf_experiments.record.topics import TABLE
+
 CALLER = "/prf_experiments"
 TIMEOUT = 5.0  # s for one answer of a node
-
-# topic: (publisher, subscribers that the data flow cannot do without)
-FRAMEWORK_FLOW = {
-    "/tf": ("robot_state_publisher", ["target_predictor"]),
-    "/tag_detections": ("tag_detector", ["target_predictor"]),
-    "/target/forecast": ("target_predictor", ["decision", "skill_planner"]),
-    "/execution/progress": ("decision", ["skill_planner"]),
-    "/skill/trajectory": ("skill_planner", ["decision"]),
-    "/execution/setpoint": ("decision", ["arm_controller"]),
-    "/joint_command": ("arm_controller", []),
-    "/control/status": ("arm_controller", []),
-}
-SENSOR_SUBSCRIBERS = {
-    "/joint_states": ["robot_state_publisher", "decision", "arm_controller"],
-    "/camera/image_raw": ["tag_detector"],
-    "/camera/camera_info": ["tag_detector"],
-}
-SIMULATOR_INPUTS = ["/joint_command", "/execution/progress"]
-FRAMEWORK_NODES = ["robot_state_publisher", "tag_detector", "target_predictor", "decision",
-                   "skill_planner", "arm_controller"]
-
 
 def trial_links(source, simulated=True):
     """(topic, publisher, subscriber) without which nothing goes.
@@ -35,12 +16,13 @@ def trial_links(source, simulated=True):
     `source` is the node that publishes the sensor topics.
     """
     links = [(topic, publisher, subscriber)
-             for topic, (publisher, subscribers) in FRAMEWORK_FLOW.items()
+             for topic, (publisher, subscribers) in TABLE.framework_flow.items()
              for subscriber in subscribers]
     links += [(topic, source, subscriber)
-              for topic, subscribers in SENSOR_SUBSCRIBERS.items() for subscriber in subscribers]
+              for topic, subscribers in TABLE.sensor_readers.items() for subscriber in subscribers]
     if simulated:
-        links += [(topic, FRAMEWORK_FLOW[topic][0], source) for topic in SIMULATOR_INPUTS]
+        links += [(topic, TABLE.framework_flow[topic][0], source)
+                  for topic in TABLE.simulator_inputs]
     return {(topic, "/" + publisher, "/" + subscriber) for topic, publisher, subscriber in links}
 
 

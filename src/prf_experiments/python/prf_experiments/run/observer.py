@@ -2,28 +2,27 @@
 """The session's own node: describes the run for the bag, starts it, watches it."""
 import json
 
-import geometry_msgs.msg
 import numpy as np
+import roslib.message
 import rospy
 import std_msgs.msg
 import std_srvs.srv
 
-import prf_msgs.msg
 from prf_experiments.judge import judge
-from prf_experiments.record import recording
+from prf_experiments.record import recording, topics
 from prf_experiments.run.session import SessionError
 
 NAME = "session_observer"
-TYPES = {"/execution/progress": prf_msgs.msg.ExecutionProgress,
-         "/ground_truth/tag": geometry_msgs.msg.PoseStamped,
-         "/ground_truth/camera": geometry_msgs.msg.PoseStamped}
+SHOWN = ("execution/progress", "ground_truth/tag", "ground_truth/camera")
+TYPES = {"/" + name: roslib.message.get_message_class(topics.TABLE.type_of(name))
+         for name in SHOWN}
 
 
 class Observer:
     def __init__(self, description=None):
         rospy.init_node(NAME, disable_signals=True, log_level=rospy.ERROR)
         if description is not None:
-            self._publisher = rospy.Publisher("/" + recording.DESCRIPTION, std_msgs.msg.String,
+            self._publisher = rospy.Publisher("/" + topics.DESCRIPTION, std_msgs.msg.String,
                                               latch=True, queue_size=1)
             self._publisher.publish(json.dumps(description, sort_keys=True))
         self._latest = {}

@@ -58,7 +58,7 @@ def master_environment(port, log_folder):
     return values
 
 
-def last_complaint(log_file, node):
+def last_error(log_file, node):
     """Last FATAL line of a node, else its last ERROR line, else an empty string."""
     pattern = re.compile(r"\[(FATAL|ERROR)\] \[/?" + re.escape(node) + r"\] (.*?)(\x1b\[0m)?$")
     found = {}
@@ -115,9 +115,9 @@ class Launch:
         return node in self._died
 
     def describe_end(self, node):
-        complaint = last_complaint(self._log_file, node)
+        error = last_error(self._log_file, node)
         return (f"{node} ended with exit code {self._died[node]}"
-                + (f": {complaint}" if complaint else f", see {self._log_file}"))
+                + (f": {error}" if error else f", see {self._log_file}"))
 
     def check(self, may_end=()):
         """Raises ProcessError when the launch failed or a node ended that should not have."""

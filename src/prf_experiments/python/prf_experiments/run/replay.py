@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a trial's sensor topics into the framework alone and compares what it answers."""
+"""Plays a trial's sensor topics into the framework alone and compares its outputs."""
 import argparse
 import contextlib
 import json
@@ -9,11 +9,11 @@ import tempfile
 import time
 
 from prf_experiments.run import arguments as args
-from prf_experiments.record import digest, recording
+from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import connections, processes, session
 
-PLAYED = ["clock"] + recording.SENSORS
-COMPARED = ["/" + topic for topic in recording.OUTPUTS + recording.TRANSFORMS]
+PLAYED = topics.CLOCK + topics.SENSORS
+COMPARED = ["/" + topic for topic in topics.OUTPUTS + topics.TRANSFORMS]
 FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonstration"]
 
 
@@ -34,7 +34,7 @@ def player(bag, log_file, rate):
 
 
 def replay(bag, folder, rate):
-    """Leaves folder/replay.bag with everything that the framework answered."""
+    """Leaves folder/replay.bag with everything that the framework publishes."""
     description = recording.description(bag)
     chosen = description.get("arguments", {})
     play = session.Session(
@@ -42,7 +42,7 @@ def replay(bag, folder, rate):
         launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
                           if chosen.get(name) is not None],
-        topics=recording.OUTPUTS + recording.TRANSFORMS,
+        topics=topics.OUTPUTS + topics.TRANSFORMS,
         links=connections.trial_links("player", simulated=False), driver="player")
     with play.running() as launch, player(bag, play.log("player.log"), rate) as playing, \
             contextlib.ExitStack() as stack:
@@ -93,7 +93,7 @@ def run(options):
 def main(words):
     parser = argparse.ArgumentParser(
         prog="replay", description="Plays the sensor topics of a trial's bag into the framework "
-        "alone and compares its answers with those in the bag. Exit 0: identical.")
+        "alone and compares its outputs with those in the bag. Exit 0: identical.")
     parser.add_argument("bag")
     parser.add_argument("--folder", help="keeps replay.bag and the logs there")
     parser.add_argument("--rate", type=float, default=1.0, help="times real time")

@@ -15,7 +15,7 @@ import rosgraph
 import rospkg
 import yaml
 
-from prf_experiments.record import recording
+from prf_experiments.record import recording, topics
 from prf_experiments.run import connections, processes
 
 CONNECT_TIMEOUT = 60.0  # s
@@ -207,7 +207,7 @@ def recorder_links(topics, publisher, recorder="recorder"):
     return {("/" + topic, "/" + publisher, "/" + recorder) for topic in topics}
 
 
-SENSOR_AND_TRUTH = recording.SENSORS + recording.GROUND_TRUTH
+SENSOR_AND_TRUTH = topics.SENSORS + topics.GROUND_TRUTH
 
 
 def guarded(name, action):

@@ -10,7 +10,7 @@ import rospkg
 
 from prf_experiments.run import arguments as args
 from prf_experiments.judge import judge
-from prf_experiments.record import recording
+from prf_experiments.record import recording, topics
 from prf_experiments.run import connections, processes, session, trial_arguments
 from prf_experiments.teach import demonstration
 
@@ -92,7 +92,7 @@ def session_of(values, folder):
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
         launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED
                           if values[name] is not None] + ["paused:=true"],
-        topics=recording.RECORDED,
+        topics=topics.TABLE.recorded,
         links=connections.trial_links(SIMULATOR)
         | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR),
         driver=SIMULATOR)

@@ -17,7 +17,7 @@ NAMED = {
     "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
                         meaning="how the skill is adapted"),
     "framework": Argument(True, **boolean(),
-                          meaning="false: adapt once, to the first sight, execute blindly"),
+                          meaning="false: adapt once, to the first forecast, execute blindly"),
     "seed": Argument(1, **integer(0, 2**31 - 1), meaning="of every random draw"),
 }
 # Given to trial.launch, and named where they are not the default.
@@ -30,7 +30,7 @@ LAUNCHED = {
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
     "predictor": Argument("periodic", **choice(*PREDICTORS),
-                          meaning="how the target's motion is foretold"),
+                          meaning="how the target's motion is predicted"),
     "variation": Argument(1.0, **number(0.0, 1.0),
                           meaning="how much the seed changes box, placement, friction, noise"),
     "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),

@@ -17,7 +17,7 @@ STUDIES = {
     "compare": "distances of ELTE, DMP, LTE and elastic maps, stepping, paired by seed",
     "ablate": "predictor, decision and planner under heavy motion, stepping",
     "cart": "the box is pushed aside during the execution",
-    "reactive": "target measured, forecast and true, belief and phase; light motion, stepping",
+    "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",
 }
 SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
 

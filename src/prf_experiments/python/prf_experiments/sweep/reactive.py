@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A look at the reaction: target X and Y measured, forecast and true, belief and phase below."""
+"""A look at the reaction: target X and Y measured, forecast and true, posterior and phase below."""
 import numpy as np
 
 from prf_experiments.judge import judge, target

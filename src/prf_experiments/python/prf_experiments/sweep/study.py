@@ -116,8 +116,8 @@ def run(study, options, command):
     folder = os.path.join(options.values.get("results", [os.path.abspath("results")])[0],
                           options.name)
     versions = trial.versions()
-    chosen = sweep.Options(options.jobs, options.keep_bags or study.keep_bags, options.scheduler,
-                           options.any_version)
+    chosen = sweep.SweepParams(options.jobs, options.keep_bags or study.keep_bags,
+                               options.scheduler, options.any_version)
     results = sweep.run(trials(study, options), folder, chosen, versions)
     summary = {"command": command, "versions": versions, **study.summarise(results),
                "trials": [{**result, "report": link(result["arguments"])} for result in results]}

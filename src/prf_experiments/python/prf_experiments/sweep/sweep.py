@@ -24,7 +24,7 @@ CONNECT_TIMEOUT = 20.0  # s
 
 
 @dataclass(frozen=True)
-class Options:
+class SweepParams:
     jobs: int
     keep_bags: str = "failed"
     scheduler: str = None  # address of a Dask scheduler, None: this machine

@@ -62,22 +62,22 @@ def run_process(values, folder):
                                    preexec_fn=_end_with_parent)
         _running.add(process)
     try:
-        complaint = process.communicate(timeout=TIMEOUT)[1]
+        error = process.communicate(timeout=TIMEOUT)[1]
     except subprocess.TimeoutExpired:
         process.kill()
-        complaint = f"run_trial did not end within {TIMEOUT:g} s"
+        error = f"run_trial did not end within {TIMEOUT:g} s"
     finally:
         with _lock:
             _running.discard(process)
     if _stopping.is_set():
         raise Stopped
     content = read(folder)
-    return content or invalid(values, folder, complaint)
+    return content or invalid(values, folder, error)
 
 
-def invalid(values, folder, complaint):
+def invalid(values, folder, error):
     """A verdict for a trial that left none."""
-    lines = complaint.strip().splitlines()
+    lines = error.strip().splitlines()
     os.makedirs(folder, exist_ok=True)
     return {"verdict": "INVALID", "inspected": False, "figures": {},
             "reason": lines[-1] if lines else "run_trial left no verdict",

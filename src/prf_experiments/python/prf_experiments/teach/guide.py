@@ -19,7 +19,7 @@ FACING = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 @dataclass
-class GuideParameters:
+class GuideParams:
     stand_off: float  # m
     run_in: float  # m
     settle_time: float  # s

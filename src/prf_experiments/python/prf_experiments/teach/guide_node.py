@@ -6,7 +6,7 @@ import geometry_msgs.msg
 import rospy
 import sensor_msgs.msg
 
-from prf_experiments.record import recording
+from prf_experiments.record import recording, topics
 from prf_experiments.teach import guide
 
 NAME = "teach_guide"
@@ -15,17 +15,17 @@ QUEUE = 200
 
 
 def read_parameters():
-    """GuideParameters from the private namespace; ValueError names what is wrong."""
+    """GuideParams from the private namespace; ValueError names what is wrong."""
     given = {name: value for name, value in rospy.get_param("~", {}).items()
              if not name.startswith("__")}
-    known = [entry.name for entry in fields(guide.GuideParameters)]
+    known = [entry.name for entry in fields(guide.GuideParams)]
     for name in known:
         if name not in given:
             raise ValueError(f"{name} is not set")
     for name in given:
         if name not in known:
             raise ValueError(f"{name} is unknown")
-    parameters = guide.GuideParameters(**given)
+    parameters = guide.GuideParams(**given)
     parameters.validate()
     return parameters
 
@@ -37,7 +37,7 @@ class GuideNode:
         self._parameters = parameters
         self._guide = None
         self._waiting = {}  # stamp: {topic: message}
-        self._publisher = rospy.Publisher(recording.GUIDE, geometry_msgs.msg.WrenchStamped,
+        self._publisher = rospy.Publisher(topics.GUIDE, geometry_msgs.msg.WrenchStamped,
                                           queue_size=QUEUE, tcp_nodelay=True)
         for topic in POSES:
             rospy.Subscriber(topic, geometry_msgs.msg.PoseStamped, self._receive,
@@ -53,19 +53,19 @@ class GuideNode:
             return
         for older in [key for key in self._waiting if key <= stamp.to_nsec()]:
             del self._waiting[older]
-        self._answer(stamp, together)
+        self._publish(stamp, together)
 
-    def _answer(self, stamp, together):
+    def _publish(self, stamp, together):
         hand, camera, tag = (recording.pose_values(together[topic].pose) for topic in POSES)
         if self._guide is None:
             self._guide = guide.Guide(self._parameters, stamp.to_sec(), hand, camera, tag)
         force, torque = self._guide.wrench(stamp.to_sec(), hand)
-        answer = geometry_msgs.msg.WrenchStamped()
-        answer.header.stamp = stamp
-        answer.header.frame_id = together[POSES[0]].header.frame_id
-        answer.wrench.force = geometry_msgs.msg.Vector3(*force)
-        answer.wrench.torque = geometry_msgs.msg.Vector3(*torque)
-        self._publisher.publish(answer)
+        message = geometry_msgs.msg.WrenchStamped()
+        message.header.stamp = stamp
+        message.header.frame_id = together[POSES[0]].header.frame_id
+        message.wrench.force = geometry_msgs.msg.Vector3(*force)
+        message.wrench.torque = geometry_msgs.msg.Vector3(*torque)
+        self._publisher.publish(message)
 
 
 def main():

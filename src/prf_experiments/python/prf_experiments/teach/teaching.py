@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Slerp
 
 from prf_experiments import geometry
-from prf_experiments.record import frames, recording
+from prf_experiments.record import frames, recording, topics
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration
 
@@ -21,9 +21,9 @@ TARGET_WINDOW = 1.0  # s at the end of the bag over which the target's pose is a
 LINKS = {("/joint_states", "/platform_sim", "/robot_state_publisher"),
          ("/joint_states", "/platform_sim", "/teach_guide"),
          ("/camera/image_raw", "/platform_sim", "/tag_detector"),
-         ("/" + recording.GUIDE, "/teach_guide", "/platform_sim")}
-RECORDED = (["clock"] + recording.SENSORS + recording.GROUND_TRUTH + ["tag_detections"]
-            + recording.TRANSFORMS + recording.EXEMPT + [recording.GUIDE])
+         ("/" + topics.GUIDE, "/teach_guide", "/platform_sim")}
+RECORDED = (topics.CLOCK + topics.SENSORS + topics.GROUND_TRUTH + ["tag_detections"]
+            + topics.TRANSFORMS + topics.EXEMPT + [topics.GUIDE])
 
 
 def moving_part(times, poses):
@@ -61,10 +61,10 @@ def _target(path, tag_id):
     stamps = _stamps(path, "tag_detections")
     stamps = stamps[stamps >= stamps[-1] - int(1e9 * TARGET_WINDOW)] if stamps.size else stamps
     with recording.open_bag(path) as bag:
-        sights = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
+        detected = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
                   for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
     camera = frames.lookup(buffer, recording.PLANNING_FRAME, "camera_optical_frame", stamps)
-    detected = np.array([sights[stamp] for stamp in stamps]).reshape(-1, 7)
+    detected = np.array([detected[stamp] for stamp in stamps]).reshape(-1, 7)
     known = np.all(np.isfinite(camera) & np.isfinite(detected), axis=1)
     if not known.any():
         raise demonstration.DemonstrationError(
@@ -94,7 +94,7 @@ def teach(folder, seed):
     lesson = session.Session(
         folder=folder, bag="teach.bag", launch_file=session.packaged("launch", "teach.launch"),
         launch_arguments=[f"seed:={seed}", "paused:=true"], topics=RECORDED,
-        links=LINKS | session.recorder_links(recording.SENSORS, "platform_sim"),
+        links=LINKS | session.recorder_links(topics.SENSORS, "platform_sim"),
         driver="platform_sim")
     with lesson.running() as launch, contextlib.ExitStack() as stack:
         # Imported here: rospy reads the environment that running() has set.

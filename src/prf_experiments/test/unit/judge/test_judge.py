@@ -142,11 +142,11 @@ class Contacts(unittest.TestCase):
 class View(unittest.TestCase):
     def hidden(self, first, count):
         data = synthetic.make_recording()
-        data.sights[first:first + count] = np.nan
+        data.detections[first:first + count] = np.nan
         return data
 
     def test_blind_for_one_second_is_no_issue(self):
-        # 33 images 30 ms apart are missing: 34 * 30 ms = 1.02 s between sights; 32: 0.99 s.
+        # 33 images 30 ms apart are missing: 34 * 30 ms = 1.02 s between detections; 32: 0.99 s.
         self.assertEqual(judge.judge(self.hidden(100, 32)).verdict, "S")
 
     def test_blind_for_longer_is_an_issue(self):
@@ -154,13 +154,13 @@ class View(unittest.TestCase):
         self.assertEqual(verdict.verdict, "P")
         self.assertIn("out of view for 1.02 s", verdict.reason)
 
-    def test_time_before_the_first_sight_does_not_count(self):
+    def test_time_before_the_first_detection_does_not_count(self):
         self.assertEqual(judge.judge(self.hidden(0, 200)).verdict, "S")
 
     def test_losing_the_tag_at_the_end_counts(self):
         self.assertEqual(judge.judge(self.hidden(299, 100)).verdict, "P")
 
-    def test_exactly_one_second_between_sights_is_allowed(self):
+    def test_exactly_one_second_between_detections_is_allowed(self):
         stamps = np.array([0, 1, 2]) * judge.SECOND
         seen = np.array([True, True, True])
         self.assertEqual(judge.longest_out_of_view(stamps, seen), judge.OUT_OF_VIEW_LIMIT)
@@ -235,9 +235,9 @@ class Evidence(unittest.TestCase):
         data.contact_stamps = data.contact_stamps[:-2]
         self.assertIn("ground_truth/contacts", self.reason(data))
 
-    def test_images_without_answers_invalidate(self):
+    def test_images_without_detections_message_invalidate(self):
         data = synthetic.make_recording()
-        data.images += judge.MAX_UNANSWERED_IMAGES
+        data.images += judge.MAX_IMAGES_IN_FLIGHT
         self.assertEqual(judge.judge(data).verdict, "S")
         data.images += 1
         self.assertIn("tag_detections", self.reason(data))

@@ -16,7 +16,7 @@ class Target(unittest.TestCase):
         self.data = synthetic.make_recording(4.0)
         arm = geometry.compose(synthetic.BASE, synthetic.ARM_BASE_IN_BODY)
         self.at = geometry.compose(geometry.inverse(arm), synthetic.TAG)[:3]
-        count = len(self.data.sight_stamps)
+        count = len(self.data.detection_stamps)
         self.data.forecasts.horizons = [np.array([0.0, 0.1, 0.5])] * count
         self.data.forecasts.positions = [np.tile(self.at, (3, 1)) for _ in range(count)]
 
@@ -28,7 +28,7 @@ class Target(unittest.TestCase):
     def test_forecast_is_stamped_with_the_moment_it_is_for(self):
         stamps, positions, horizon = target.forecast(self.data, 0.12)
         self.assertEqual(horizon, 0.1)
-        np.testing.assert_array_equal(stamps, self.data.sight_stamps + 100_000_000)
+        np.testing.assert_array_equal(stamps, self.data.detection_stamps + 100_000_000)
         self.assertEqual(positions.shape, (len(stamps), 3))
 
     def test_error_is_measured_where_the_truth_is_known(self):
@@ -47,7 +47,7 @@ class Target(unittest.TestCase):
                                    [[0.0, 0.0, 0.5]])
 
     def test_no_forecast_is_no_number(self):
-        self.data.forecasts.horizons = [np.array([])] * len(self.data.sight_stamps)
+        self.data.forecasts.horizons = [np.array([])] * len(self.data.detection_stamps)
         self.assertIsNone(target.forecast_error(self.data)[1])
 
 

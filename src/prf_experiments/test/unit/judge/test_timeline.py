@@ -5,6 +5,8 @@ import unittest
 
 import numpy as np
 
+from prf_msgs.msg import ControlStatus, SkillTrajectory
+
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic  # noqa: E402
 from prf_experiments.judge import judge, timeline  # noqa: E402
@@ -17,7 +19,7 @@ def told(data):
 
 
 class Timeline(unittest.TestCase):
-    def test_tells_phases_with_reasons_first_sight_and_milestones_in_the_order_of_time(self):
+    def test_tells_phases_with_reasons_first_detection_and_milestones_in_the_order_of_time(self):
         data = synthetic.make_recording(4.0)
         data.progress.reasons[-1] = "tracked for 2.00 s"
         events = told(data)
@@ -46,21 +48,21 @@ class Timeline(unittest.TestCase):
             "contact: body with j2s7s300_link_5, at most 1.5 N within 0.01 s",
             "contact: box with camera_link, at most 3.0 N within 0.01 s"])
 
-    def test_sights_lost_are_told_with_their_length(self):
+    def test_gaps_between_detections_are_told_with_their_length(self):
         data = synthetic.make_recording(4.0)
-        data.sights[20:40] = np.nan
+        data.detections[20:40] = np.nan
         self.assertIn((0.57, "the tag is out of view for 0.63 s"), told(data))
-        data.sights[:] = np.nan
+        data.detections[:] = np.nan
         self.assertIn((0.0, "the tag is never seen"), told(data))
 
     def test_what_the_arm_could_not_do_is_told_once(self):
         data = synthetic.make_recording(4.0)
         for row in (50, 51, 52):
-            data.control.codes[row] = timeline.CONTROLS.index("limited")
+            data.control.codes[row] = ControlStatus.LIMITED
             data.control.reasons[row] = "joint_2 asked too much"
-        data.complaints = [recording.Complaint(int(data.ticks[50]), "arm_controller",
+        data.warnings = [recording.LoggedWarning(int(data.ticks[50]), "arm_controller",
                                                "joint_2 asked too much"),
-                           recording.Complaint(int(data.ticks[60]), "decision", "no plan")]
+                           recording.LoggedWarning(int(data.ticks[60]), "decision", "no plan")]
         events = told(data)
         self.assertIn((0.5, "arm: limited, 3 ticks within 0.03 s: joint_2 asked too much"), events)
         self.assertIn((0.6, "log of decision: no plan"), events)
@@ -69,18 +71,22 @@ class Timeline(unittest.TestCase):
     def test_plans_are_told_when_their_status_changes(self):
         data = synthetic.make_recording(4.0)
         data.plans = [recording.Plan(int(data.ticks[row]), status, message, 0.0, np.empty((0, 3)))
-                      for row, status, message in ((3, 1, ""), (6, 1, ""), (9, 3, "no solution"))]
+                      for row, status, message in (
+                          (3, SkillTrajectory.SOLVED, ""), (6, SkillTrajectory.SOLVED, ""),
+                          (9, SkillTrajectory.KEPT, "no solution"),
+                          (12, SkillTrajectory.REFUSED, "unreadable"))]
         self.assertEqual([event for event in told(data) if event[1].startswith("plan")],
                          [(0.03, "plan: solved"),
-                          (0.09, "plan: kept the plan before, no solution")])
+                          (0.09, "plan: kept, no solution"),
+                          (0.12, "plan: refused, unreadable")])
 
     def test_many_events_of_a_kind_are_counted(self):
         data = synthetic.make_recording(10.0)
-        data.complaints = [recording.Complaint(int(stamp), "decision", f"trouble {row}")
+        data.warnings = [recording.LoggedWarning(int(stamp), "decision", f"trouble {row}")
                            for row, stamp in enumerate(data.ticks[::10])]
         logged = [what for _, what in told(data) if "trouble" in what]
         self.assertEqual(len(logged), timeline.MOST_OF_A_KIND + 1)
-        self.assertIn(f"{len(data.complaints) - timeline.MOST_OF_A_KIND} more events", logged[-1])
+        self.assertIn(f"{len(data.warnings) - timeline.MOST_OF_A_KIND} more events", logged[-1])
         self.assertIn("the last at 10.00 s: log of decision: trouble 100", logged[-1])
 
     def test_text_has_phases_solve_times_and_losses(self):

@@ -27,20 +27,20 @@ class Recording(unittest.TestCase):
     def test_bag_gives_the_arrays_that_were_written(self):
         made = synthetic.make_recording(3.0, lateral=np.linspace(0.1, 0.0, 301))
         made.contacts = [recording.Contact(int(made.ticks[50]), ("box_back", "camera_link"), 2.5)]
-        made.sights[4] = np.nan
+        made.detections[4] = np.nan
         made.control.codes[7], made.control.reasons[7] = 2, "joint_2 asked too much"
-        made.complaints = [recording.Complaint(int(made.ticks[9]), "decision", "no plan")]
+        made.warnings = [recording.LoggedWarning(int(made.ticks[9]), "decision", "no plan")]
         made.diagnostics = {"skill_planner": {"late solves": ["0", "2"]}}
         synthetic.write_bag(self.bag, made)
         read = recording.read(self.bag)
         np.testing.assert_array_equal(read.ticks, made.ticks)
         np.testing.assert_allclose(read.camera.values, made.camera.values)
-        np.testing.assert_allclose(read.sights, made.sights)
+        np.testing.assert_allclose(read.detections, made.detections)
         np.testing.assert_allclose(read.arm_base_in_body, synthetic.ARM_BASE_IN_BODY)
         self.assertEqual(read.contacts, made.contacts)
         self.assertEqual((read.control.codes[7], read.control.reasons[7]),
                          (2, "joint_2 asked too much"))
-        self.assertEqual(read.complaints, made.complaints)
+        self.assertEqual(read.warnings, made.warnings)
         self.assertEqual(read.diagnostics, made.diagnostics)
         self.assertEqual(read.description, {"command": "made up"})
         self.assertEqual(judge.judge(read), judge.judge(made))

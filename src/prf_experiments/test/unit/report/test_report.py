@@ -65,7 +65,7 @@ class Report(unittest.TestCase):
 
     def test_is_one_page_that_fetches_nothing(self):
         data = synthetic.make_recording(3.0)
-        data.sights[10:20] = np.nan
+        data.detections[10:20] = np.nan
         data.contacts = [recording.Contact(int(data.ticks[150]), ("box_back", "camera_link"), 2.5)]
         text = self.write(data)
         self.assert_sound(text)
@@ -78,9 +78,9 @@ class Report(unittest.TestCase):
 
     def test_draws_a_trial_whose_target_was_never_seen_or_forecast(self):
         data = synthetic.make_recording(61.0, lateral=0.3, state="WAITING")
-        data.sights[:] = np.nan
-        data.forecasts.horizons = [np.array([])] * len(data.sight_stamps)
-        data.forecasts.positions = [np.empty((0, 3))] * len(data.sight_stamps)
+        data.detections[:] = np.nan
+        data.forecasts.horizons = [np.array([])] * len(data.detection_stamps)
+        data.forecasts.positions = [np.empty((0, 3))] * len(data.detection_stamps)
         text = self.write(data)
         self.assert_sound(text)
         self.assertIn("failure", text)

@@ -9,11 +9,11 @@ LOG = """\x1b[31m[FATAL] [/skill_planner] demonstration is '', must be a file\x1
 [ERROR] [/skill_planner] later
 [ERROR] [/decision] first
 [ERROR] [/decision] joint_states are silent
-[ WARN] [/decision] no complaint
+[ WARN] [/decision] no error
 """
 
 
-class LastComplaint(unittest.TestCase):
+class LastError(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -22,15 +22,15 @@ class LastComplaint(unittest.TestCase):
             stream.write(LOG)
 
     def test_prefers_the_fatal_line_of_the_node(self):
-        self.assertEqual(processes.last_complaint(self.log, "skill_planner"),
+        self.assertEqual(processes.last_error(self.log, "skill_planner"),
                          "demonstration is '', must be a file")
 
     def test_falls_back_to_the_last_error(self):
-        self.assertEqual(processes.last_complaint(self.log, "decision"), "joint_states are silent")
+        self.assertEqual(processes.last_error(self.log, "decision"), "joint_states are silent")
 
     def test_is_empty_when_the_node_said_nothing(self):
-        self.assertEqual(processes.last_complaint(self.log, "platform_sim"), "")
-        self.assertEqual(processes.last_complaint(self.log + ".absent", "decision"), "")
+        self.assertEqual(processes.last_error(self.log, "platform_sim"), "")
+        self.assertEqual(processes.last_error(self.log + ".absent", "decision"), "")
 
 
 class Ports(unittest.TestCase):

@@ -49,7 +49,7 @@ class Sweep(unittest.TestCase):
 
     def run_sweep(self, attempt, seeds=(1, 2), versions=VERSION, **options):
         self.out = io.StringIO()
-        return sweep.run(trials(*seeds), self.folder, sweep.Options(**{"jobs": 3, **options}),
+        return sweep.run(trials(*seeds), self.folder, sweep.SweepParams(**{"jobs": 3, **options}),
                          versions, attempt,
                          lambda total, kept: sweep.Board(total, kept, self.out))
 

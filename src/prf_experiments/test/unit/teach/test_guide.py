@@ -16,7 +16,7 @@ HAND = np.array([0.4, -0.22, 0.40, 0.5, 0.5, 0.5, 0.5])
 
 
 def make(**changes):
-    return guide.Guide(guide.GuideParameters(**{**PARAMETERS, **changes}), 5.0, HAND,
+    return guide.Guide(guide.GuideParams(**{**PARAMETERS, **changes}), 5.0, HAND,
                        geometry.compose(HAND, CAMERA_IN_HAND), TAG)
 
 

@@ -44,7 +44,7 @@ class Teaching(unittest.TestCase):
         hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
         target = self.convert(data, hand).target_pose
         camera = geometry.compose(hand[-1], [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
-        np.testing.assert_allclose(target[:3], geometry.compose(camera, data.sights[-1])[:3],
+        np.testing.assert_allclose(target[:3], geometry.compose(camera, data.detections[-1])[:3],
                                    atol=1e-9)
 
     def test_refuses_a_hand_that_never_moves(self):
@@ -55,7 +55,7 @@ class Teaching(unittest.TestCase):
 
     def test_refuses_a_tag_unseen_at_the_end(self):
         data = synthetic.make_recording(3.0)
-        data.sights[20:] = np.nan
+        data.detections[20:] = np.nan
         with self.assertRaisesRegex(demonstration.DemonstrationError, "not seen"):
             self.convert(data, led_hand(data.seconds(data.ticks), 1.0, 2.0))
 
