@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from setuptools import setup
-
 from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
 
 ROOMS = ["judge", "record", "report", "run", "sweep", "teach"]
 

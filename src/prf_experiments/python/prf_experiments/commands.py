@@ -77,7 +77,7 @@ def report_main(words):
                  or session.packaged("demonstrations", "inspect_box.csv"))
         report.write(options.out, options.bag, data, {**verdict.as_json(), **description},
                      demonstration.read(skill),
-                     pictures.of(options.bag, data, verdict.figures) if verdict.figures else "")
+                     pictures.of(options.bag, data, verdict.figures) if verdict.figures else report.NOTHING)
         print(options.out)
         return 0
     return session.guarded("report", action)

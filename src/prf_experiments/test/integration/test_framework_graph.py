@@ -6,7 +6,6 @@ import unittest
 
 import rosgraph
 import rostest
-
 from prf_experiments.record import topics
 from prf_experiments.run import connections
 

@@ -12,12 +12,13 @@ import sys
 import tempfile
 import time
 import unittest
+from typing import Any
 
 import rosgraph
 
 sys.path.insert(0, os.path.dirname(__file__))
-import runs  # noqa: E402
-from prf_experiments.run import connections, processes  # noqa: E402
+import runs
+from prf_experiments.run import connections, processes
 
 LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "incomplete.launch")
 
@@ -26,7 +27,8 @@ def node_pid(name):
     """Process of a node, found as ROS finds it."""
     import xmlrpc.client
     uri = rosgraph.Master(connections.CALLER).lookupNode("/" + name)
-    return xmlrpc.client.ServerProxy(uri).getPid(connections.CALLER)[2]
+    pid: Any = xmlrpc.client.ServerProxy(uri).getPid(connections.CALLER)
+    return pid[2]
 
 
 class MissingNode(unittest.TestCase):
@@ -94,7 +96,8 @@ class MissingNode(unittest.TestCase):
     def test_a_node_that_dies_makes_the_trial_invalid(self):
         with tempfile.TemporaryDirectory() as results:
             trial = runs.start("run_trial", f"results:={results}", "real_time_factor:=1.0")
-            victims, end = [], time.monotonic() + 60.0
+            victims: list[str] = []
+            end = time.monotonic() + 60.0
             while not victims and time.monotonic() < end:
                 time.sleep(0.5)
                 victims = [pid for pid in filter(str.isdigit, os.listdir("/proc"))

@@ -11,8 +11,8 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-import runs  # noqa: E402
-from prf_experiments.run import session  # noqa: E402
+import runs
+from prf_experiments.run import session
 
 SKILL = session.packaged("demonstrations", "inspect_box.csv")
 

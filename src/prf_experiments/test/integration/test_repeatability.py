@@ -7,8 +7,8 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-import runs  # noqa: E402
-from prf_experiments.record import digest, topics  # noqa: E402
+import runs
+from prf_experiments.record import digest, topics
 
 SECONDS = 12.0  # enough for every node to work; too short for a verdict
 CUT_SHORT = 3  # exit code of run_trial for that

@@ -12,7 +12,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-import runs  # noqa: E402
+import runs
 
 WORDS = ("table", "--seeds", "1", "motion:=none,light", "gait:=stand", "framework:=true",
          "--keep-bags", "all")
@@ -21,7 +21,7 @@ WORDS = ("table", "--seeds", "1", "motion:=none,light", "gait:=stand", "framewor
 def dask(program, home, *words):
     """A process of the cluster with a home, a scratch folder and a working directory of its own."""
     os.makedirs(home)
-    own = {name: home for name in ("HOME", "TMPDIR", "ROS_HOME")}
+    own = dict.fromkeys(("HOME", "TMPDIR", "ROS_HOME"), home)
     return subprocess.Popen([sys.executable, "-m", f"distributed.cli.dask_{program}", *words],
                             cwd=home, env={**os.environ, **own}, stdin=subprocess.DEVNULL,
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -11,11 +11,11 @@ import sensor_msgs.msg
 import std_msgs.msg
 import tf2_msgs.msg
 import trajectory_msgs.msg
+from prf_experiments.judge import judge
+from prf_experiments.record import recording
 
 import prf_msgs.msg
 from prf_experiments import geometry
-from prf_experiments.judge import judge
-from prf_experiments.record import recording
 
 START = 1_000_000_000  # ns
 STILL = geometry.IDENTITY

@@ -18,11 +18,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from prf_msgs import enums
-from prf_msgs.msg import ExecutionProgress
-
 from prf_experiments import geometry
 from prf_experiments.judge import target
+from prf_msgs import enums
+from prf_msgs.msg import ExecutionProgress
 
 SECOND = 1_000_000_000  # ns
 
@@ -102,7 +101,7 @@ def arm_contacts(contacts):
 
 
 def strongest_by_pair(contacts):
-    strongest = {}
+    strongest: dict[str, float] = {}
     for contact in contacts:
         pair = " | ".join(contact.links)
         strongest[pair] = max(strongest.get(pair, 0.0), contact.force)

@@ -4,10 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prf_experiments.judge import judge
 from prf_msgs import enums
 from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
-
-from prf_experiments.judge import judge
 
 FORECASTS, PLANS, CONTROLS = (
     [name.lower().replace("_", " ") for name in enums.names(message_type)]
@@ -82,8 +81,10 @@ def _plans(data):
 def _control(data):
     control = data.control
     for code, name in enumerate(CONTROLS):
-        rows = np.flatnonzero(control.codes == code) if code not in ORDINARY_CONTROLS else []
-        for part in episodes(control.stamps[rows] if len(rows) else []):
+        if code in ORDINARY_CONTROLS:
+            continue
+        rows = np.flatnonzero(control.codes == code)
+        for part in episodes(control.stamps[rows]):
             chosen = rows[part]
             stamps = control.stamps[chosen]
             yield Event(int(stamps[0]), "arm", f"arm: {name}, {len(chosen)} ticks within "
@@ -91,7 +92,7 @@ def _control(data):
 
 
 def _contacts(data):
-    by_pair = {}
+    by_pair: dict[tuple, list] = {}
     for contact in judge.arm_contacts(data.contacts):
         by_pair.setdefault(contact.links, []).append(contact)
     for links, contacts in by_pair.items():

@@ -8,6 +8,7 @@ which carry wall-clock figures, and the trial's description of itself (command, 
 """
 import hashlib
 from dataclasses import dataclass
+from typing import Any
 
 from prf_experiments.record import recording, topics
 
@@ -20,9 +21,10 @@ class Digest:
     sha256: str
 
 
-def digests(path, topics=None):
+def digests(path: str, topics: list[str] | None = None) -> dict[tuple[str, str], Digest]:
     """{(topic, publisher): Digest} of a bag; `topics` restricts it to those names."""
-    hashes, counts = {}, {}
+    hashes: dict[tuple[str, str], Any] = {}
+    counts: dict[tuple[str, str], int] = {}
     with recording.open_bag(path) as bag:
         present = [name for name in bag.get_type_and_topic_info().topics
                    if name not in EXEMPT and (topics is None or name in topics)]
@@ -37,7 +39,7 @@ def digests(path, topics=None):
     return {key: Digest(counts[key], hashes[key].hexdigest()) for key in sorted(hashes)}
 
 
-def differences(ours, theirs):
+def differences(ours: dict, theirs: dict) -> list[str]:
     """One line for every topic and publisher that is not the same in both."""
     lines = []
     for key in sorted(set(ours) | set(theirs)):

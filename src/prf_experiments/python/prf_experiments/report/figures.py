@@ -5,6 +5,7 @@ Lines differ in colour (Okabe and Ito's palette), style and lightness, so that t
 apart in black and white and with colour-vision deficiency.
 """
 import io
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -19,9 +20,10 @@ MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize"
 PREDICTED = {"color": "#0072B2", "linewidth": 1.1, "linestyle": (0, (4, 2))}
 PLANNED = {"color": "#0072B2", "linewidth": 2.6, "linestyle": (0, (3, 2)), "alpha": 0.7}
 DEMONSTRATED = {"color": "#009E73", "linewidth": 1.4, "linestyle": (0, (1, 1.5))}
-POSTERIORS = [("forward", {"color": "#009E73", "linestyle": "-"}),
-           ("pause", {"color": "#E69F00", "linestyle": (0, (5, 2))}),
-           ("reverse", {"color": "#000000", "linestyle": (0, (1, 1.5))})]
+POSTERIORS: list[dict[str, Any]] = [  # in the order of judge.EXECUTION
+    {"color": "#009E73", "linestyle": "-"},
+    {"color": "#E69F00", "linestyle": (0, (5, 2))},
+    {"color": "#000000", "linestyle": (0, (1, 1.5))}]
 BOUND = {"color": "0.45", "linewidth": 0.8, "linestyle": (0, (6, 3))}
 SEEN = {"color": "0.25", "linestyle": "none", "marker": "|", "markersize": 5}
 BAR = "#56B4E9"
@@ -82,10 +84,11 @@ def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"
         panel.set_ylim(low - slack, high + slack)
     panels[0].legend(loc="upper right", fontsize=8, ncols=3)
     _grid(posterior)
-    for index, (name, style) in enumerate(POSTERIORS):
+    for index, (state, look) in enumerate(zip(judge.EXECUTION, POSTERIORS)):
         times, probability = thin(recording.seconds(recording.progress.stamps),
-                             recording.progress.posteriors[:, index])
-        posterior.plot(times, probability, label=name, linewidth=1.3, **style)
+                                  recording.progress.posteriors[:, index])
+        posterior.plot(times, probability, label=judge.STATES[state].lower(), linewidth=1.3,
+                       **look)
     posterior.set_ylim(-0.05, 1.05)
     posterior.set_ylabel("HMM posterior", fontsize=9)
     posterior.legend(loc="center right", fontsize=8)

@@ -14,6 +14,7 @@ from prf_experiments.report import figures, page
 from prf_experiments.report.page import Section
 from prf_experiments.teach import demonstration
 
+NOTHING = Markup()
 MEANING = {"S": "success", "P": "partial success", "F": "failure", "INVALID": "no evidence"}
 
 
@@ -55,7 +56,7 @@ def draw(bag: str, data: recording.Recording,
 
 
 def sections(content: dict, data: recording.Recording | None,
-             drawings: Sequence[tuple[str, str, Markup]], scene: Markup | str) -> list[Section]:
+             drawings: Sequence[tuple[str, str, Markup]], scene: Markup) -> list[Section]:
     """What a trial's page shows. `content` is what verdict.json holds."""
     pairs = content["figures"].get("largest_contact_by_pair_n", {})
     measures = [(name, value) for name, value in content["figures"].items()
@@ -77,7 +78,7 @@ def sections(content: dict, data: recording.Recording | None,
 
 
 def render(content: dict, data: recording.Recording | None,
-           drawings: Sequence[tuple[str, str, Markup]], scene: Markup | str = "",
+           drawings: Sequence[tuple[str, str, Markup]], scene: Markup = NOTHING,
            parameters: str = "") -> str:
     """The page of a trial."""
     return page.render("report.html", title="Trial " + content["verdict"],
@@ -86,13 +87,14 @@ def render(content: dict, data: recording.Recording | None,
 
 
 def write(path: str, bag: str, data: recording.Recording | None, content: dict,
-          demonstrated: demonstration.Demonstration, scene: Markup | str = "") -> None:
+          demonstrated: demonstration.Demonstration, scene: Markup = NOTHING) -> None:
     """Writes the report of a trial; `data` is None when the recording could not be read."""
     parameters = ""
     with contextlib.suppress(OSError), \
             open(os.path.join(os.path.dirname(bag), "parameters.yaml"), encoding="utf-8") as stream:
         parameters = stream.read()
-    drawn = data is not None and content["verdict"] != "INVALID"
-    drawings = draw(bag, data, demonstrated) if drawn else []
+    drawings = []
+    if data is not None and content["verdict"] != "INVALID":
+        drawings = draw(bag, data, demonstrated)
     with open(path, "w", encoding="utf-8") as stream:
         stream.write(render(content, data, drawings, scene, parameters))

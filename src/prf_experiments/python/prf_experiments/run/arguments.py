@@ -2,8 +2,9 @@
 """`key:=value` arguments with a list of what is valid."""
 import math
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable
+from typing import Any
 
 
 class ArgumentError(ValueError):

@@ -2,6 +2,7 @@
 """Which node publishes what to whom, and whether those pairs are really connected."""
 import http.client
 import xmlrpc.client
+from typing import Any
 
 import rosgraph
 
@@ -42,7 +43,7 @@ def registered(master):
 
 def subscriptions(master):
     """{node: set of topics} of all subscribers that the master knows."""
-    result = {}
+    result: dict[str, set[str]] = {}
     for topic, nodes in master.getSystemState()[1]:
         for node in nodes:
             result.setdefault(node, set()).add(topic)
@@ -54,7 +55,7 @@ def established(master, publishers):
     links = set()
     for publisher in publishers:
         node = xmlrpc.client.ServerProxy(master.lookupNode(publisher), transport=_Transport())
-        _, _, connections = node.getBusInfo(CALLER)
+        connections: Any = node.getBusInfo(CALLER)[2]  # type: ignore[index]
         links |= {(entry[4], publisher, entry[1]) for entry in connections if entry[2] == "o"}
     return links
 

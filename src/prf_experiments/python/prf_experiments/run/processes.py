@@ -85,6 +85,8 @@ class Launch:
                  launch_file, *arguments],
                 stdin=subprocess.PIPE, stdout=log, stderr=log, pass_fds=[write_end],
                 start_new_session=True)
+        assert self._process.stdin is not None
+        self._input = self._process.stdin  # its end ends the launch
         os.close(write_end)
         self._listener = threading.Thread(target=self._listen, args=[read_end], daemon=True)
         self._listener.start()
@@ -131,7 +133,7 @@ class Launch:
 
     def stop(self, timeout=60.0):
         with contextlib.suppress(BrokenPipeError):
-            self._process.stdin.close()
+            self._input.close()
         try:
             self._process.wait(timeout)
         except subprocess.TimeoutExpired:

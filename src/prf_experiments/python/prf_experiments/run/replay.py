@@ -8,8 +8,8 @@ import subprocess
 import tempfile
 import time
 
-from prf_experiments.run import arguments as args
 from prf_experiments.record import digest, recording, topics
+from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session
 
 PLAYED = topics.CLOCK + topics.SENSORS
@@ -47,8 +47,9 @@ def replay(bag, folder, rate):
     with play.running() as launch, player(bag, play.log("player.log"), rate) as playing, \
             contextlib.ExitStack() as stack:
         # Imported here: rospy reads the environment that running() has set.
-        from prf_experiments.run.observer import Observer
         import std_srvs.srv
+
+        from prf_experiments.run.observer import Observer
         observer = Observer()
         stack.callback(observer.close)
         recorder = stack.enter_context(play.recording())

@@ -8,9 +8,9 @@ import sys
 
 import rospkg
 
-from prf_experiments.run import arguments as args
 from prf_experiments.judge import judge
 from prf_experiments.record import recording, topics
+from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session, trial_arguments
 from prf_experiments.teach import demonstration
 
@@ -75,7 +75,7 @@ def evaluate(folder, description, wall, failure, progress):
         json.dump(content, stream, indent=2)
         stream.write("\n")
     progress.show("drawing the report", always=True)
-    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else ""
+    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else report.NOTHING
     report.write(os.path.join(folder, "report.html"), bag, data, content,
                  demonstration.read(skill(description["arguments"])), scene)
     progress.close()

@@ -2,8 +2,17 @@
 """The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
 import os
 
-from prf_experiments.run.arguments import (Argument, ArgumentError, boolean, choice, choice_or_file,
-                                       integer, number, path, show)
+from prf_experiments.run.arguments import (
+    Argument,
+    ArgumentError,
+    boolean,
+    choice,
+    choice_or_file,
+    integer,
+    number,
+    path,
+    show,
+)
 
 PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceleration",
               "oscillation", "ekf", "autoregressive", "sines", "hold"]

@@ -5,10 +5,10 @@ from prf_experiments.report import report
 from prf_experiments.report.page import Section
 from prf_experiments.run import trial
 from prf_experiments.sweep import statistics
-from prf_experiments.teach import demonstration
 from prf_experiments.sweep.compare import with_spread
 from prf_experiments.sweep.study import NO_BAG, Study, cell, letters, read_bag, values
 from prf_experiments.sweep.table import aligned, grouped, shown
+from prf_experiments.teach import demonstration
 
 AXES = {"framework": [False, True]}
 FIXED = {"scenario": "cart", "motion": "none"}

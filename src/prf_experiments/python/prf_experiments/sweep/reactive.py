@@ -43,7 +43,8 @@ def phase_shares(data):
 
 def axis_errors(data):
     """Root mean square of the forecast's error along each axis, mm."""
-    found = target.errors(*target.forecast(data)[:2], target.true(data))
+    stamps, positions, _ = target.forecast(data)
+    found = target.errors(stamps, positions, target.true(data))
     return [float(error) for error in 1e3 * np.sqrt(np.mean(found**2, axis=0))] or [None] * 3
 
 

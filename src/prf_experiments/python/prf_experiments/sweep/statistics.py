@@ -27,9 +27,9 @@ class Spread:
 
 
 def spread(values: Sequence[float | None]) -> Spread:
-    values = np.array([value for value in values if value is not None], dtype=float)
-    return Spread(len(values), float(values.mean()) if len(values) else None,
-                  float(values.std(ddof=1)) if len(values) > 1 else None)
+    known = np.array([value for value in values if value is not None], dtype=float)
+    return Spread(len(known), float(known.mean()) if len(known) else None,
+                  float(known.std(ddof=1)) if len(known) > 1 else None)
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,13 @@
 """What all experiments share: axes, sweep, numbers as text, JSON and page."""
 import json
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
-from prf_experiments.run import arguments as args
 from prf_experiments.record import recording
 from prf_experiments.report import page
 from prf_experiments.report.page import Markup, Section
+from prf_experiments.run import arguments as args
 from prf_experiments.run import session, trial, trial_arguments
 from prf_experiments.sweep import sweep
 

@@ -15,8 +15,8 @@ import time
 from dataclasses import dataclass
 
 from prf_experiments.run import trial_arguments
-from prf_experiments.sweep import trial_runner
 from prf_experiments.run.session import Interrupted, SessionError
+from prf_experiments.sweep import trial_runner
 
 BAR = 24  # characters
 MEGABYTE = 1e6
@@ -27,7 +27,7 @@ CONNECT_TIMEOUT = 20.0  # s
 class SweepParams:
     jobs: int
     keep_bags: str = "failed"
-    scheduler: str = None  # address of a Dask scheduler, None: this machine
+    scheduler: str | None = None  # address of a Dask scheduler, None: this machine
     any_version: bool = False
 
 

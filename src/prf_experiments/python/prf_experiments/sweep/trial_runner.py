@@ -23,7 +23,7 @@ KEEP_BAGS = ("failed", "all", "none")
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
 
-_running = set()  # processes of this process's trials
+_running: set[subprocess.Popen] = set()  # processes of this process's trials
 _lock = threading.Lock()
 _stopping = threading.Event()
 

@@ -128,7 +128,8 @@ def convert(path, target, command):
         raise DemonstrationError(f"{path}: must end with .bag, " + ", ".join(READERS))
     if not os.path.exists(path):
         raise DemonstrationError(f"{path}: there is no such file")
-    times, poses = clean(*READERS[kind](path), path)
+    times, poses = READERS[kind](path)
+    times, poses = clean(times, poses, path)
     part = teaching.moving_part(times, poses)
     times, poses = teaching.resample(times[part], poses[part], teaching.RATE)
     if target is None:

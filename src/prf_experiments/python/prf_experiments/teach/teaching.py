@@ -61,10 +61,10 @@ def _target(path, tag_id):
     stamps = _stamps(path, "tag_detections")
     stamps = stamps[stamps >= stamps[-1] - int(1e9 * TARGET_WINDOW)] if stamps.size else stamps
     with recording.open_bag(path) as bag:
-        detected = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
-                  for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
+        rows = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
+                for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
     camera = frames.lookup(buffer, recording.PLANNING_FRAME, "camera_optical_frame", stamps)
-    detected = np.array([detected[stamp] for stamp in stamps]).reshape(-1, 7)
+    detected = np.array([rows[stamp] for stamp in stamps]).reshape(-1, 7)
     known = np.all(np.isfinite(camera) & np.isfinite(detected), axis=1)
     if not known.any():
         raise demonstration.DemonstrationError(

@@ -7,11 +7,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments import geometry
+import synthetic
 from prf_experiments.judge import judge
 from prf_experiments.record import recording
 from prf_experiments.record.recording import Contact
+
+from prf_experiments import geometry
 
 MILLIMETRE, MICROMETRE = 1e-3, 1e-6
 BOX, PALM = "box_left", "j2s7s300_link_7"

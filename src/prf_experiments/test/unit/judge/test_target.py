@@ -6,9 +6,10 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments import geometry  # noqa: E402
-from prf_experiments.judge import target  # noqa: E402
+import synthetic
+from prf_experiments.judge import target
+
+from prf_experiments import geometry
 
 
 class Target(unittest.TestCase):

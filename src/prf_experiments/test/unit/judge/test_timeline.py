@@ -8,9 +8,9 @@ import numpy as np
 from prf_msgs.msg import ControlStatus, SkillTrajectory
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments.judge import judge, timeline  # noqa: E402
-from prf_experiments.record import recording  # noqa: E402
+import synthetic
+from prf_experiments.judge import judge, timeline
+from prf_experiments.record import recording
 
 
 def told(data):

@@ -9,8 +9,8 @@ import rospy
 import std_msgs.msg
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments.record import digest  # noqa: E402
+import synthetic
+from prf_experiments.record import digest
 
 
 class Digest(unittest.TestCase):

@@ -8,7 +8,7 @@ import numpy as np
 import rosbag
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
+import synthetic
 from prf_experiments.judge import judge
 from prf_experiments.record import frames, recording
 

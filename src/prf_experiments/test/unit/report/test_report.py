@@ -9,12 +9,13 @@ from html.parser import HTMLParser
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments import geometry  # noqa: E402
-from prf_experiments.judge import judge  # noqa: E402
-from prf_experiments.record import recording  # noqa: E402
-from prf_experiments.report import page, pictures, report  # noqa: E402
-from prf_experiments.teach import demonstration  # noqa: E402
+import synthetic
+from prf_experiments.judge import judge
+from prf_experiments.record import recording
+from prf_experiments.report import page, pictures, report
+from prf_experiments.teach import demonstration
+
+from prf_experiments import geometry
 
 VOID = {"meta", "br", "hr", "img"}
 SKILL = demonstration.Demonstration(

@@ -4,8 +4,8 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-from made_up import result  # noqa: E402
-from prf_experiments.sweep import cart, reactive  # noqa: E402
+from made_up import result
+from prf_experiments.sweep import cart, reactive
 
 
 def trials(framework, *errors):

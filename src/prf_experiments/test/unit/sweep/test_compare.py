@@ -6,9 +6,9 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-from made_up import result  # noqa: E402
-from prf_experiments.report import page  # noqa: E402
-from prf_experiments.sweep import compare, statistics  # noqa: E402
+from made_up import result
+from prf_experiments.report import page
+from prf_experiments.sweep import compare, statistics
 
 
 def trials(shift, seeds=12, motions=("light", "heavy")):

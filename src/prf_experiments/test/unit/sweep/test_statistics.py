@@ -3,7 +3,6 @@ import unittest
 
 import numpy as np
 import scipy.stats
-
 from prf_experiments.sweep import statistics
 
 
@@ -51,12 +50,12 @@ class PairedTests(unittest.TestCase):
     def test_smallest_sample_of_wilcoxon_is_exact(self):
         # All five differences of one sign: two of the 2^5 sign patterns are as extreme.
         found = statistics.paired([1, 2, 3, 4, 5], [0, 0, 0, 0, 0])
-        self.assertAlmostEqual(found.wilcoxon_p, 2 / 32, 12)
+        self.assertEqual(found.wilcoxon_p, 2 / 32)
 
     def test_leave_out_pairs_with_a_missing_number(self):
         found = statistics.paired([1.0, None, 3.0, 4.0], [0.5, 1.0, None, 2.0])
         self.assertEqual(found.count, 2)
-        self.assertAlmostEqual(found.difference.mean, 1.25)
+        self.assertEqual(found.difference.mean, 1.25)
 
     def test_have_no_p_value_below_two_pairs_and_one_for_equal_series(self):
         self.assertIsNone(statistics.paired([1.0], [2.0]).t_p)

@@ -6,8 +6,8 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-from made_up import result  # noqa: E402
-from prf_experiments.sweep import statistics, study, table  # noqa: E402
+from made_up import result
+from prf_experiments.sweep import statistics, study, table
 
 RESULTS = [result(verdict, verdict == "S", {"tracking_lateral_mean_mm": float(seed),
                                             "largest_contact_n": 2.0 * seed},

@@ -4,10 +4,10 @@ import tempfile
 import unittest
 
 import numpy as np
+from prf_experiments.teach import demonstration
 from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
-from prf_experiments.teach import demonstration
 
 HEADER = """# frame: base
 # child_frame: hand

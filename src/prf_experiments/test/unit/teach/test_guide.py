@@ -2,13 +2,13 @@
 import unittest
 
 import numpy as np
+from prf_experiments.teach import guide
 from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
-from prf_experiments.teach import guide
 
-PARAMETERS = dict(stand_off=0.3, run_in=0.25, settle_time=1.0, guide_time=10.0, stiffness=400.0,
-                  damping=40.0, angular_stiffness=30.0, angular_damping=3.0)
+PARAMETERS = {"stand_off": 0.3, "run_in": 0.25, "settle_time": 1.0, "guide_time": 10.0, "stiffness": 400.0,
+                  "damping": 40.0, "angular_stiffness": 30.0, "angular_damping": 3.0}
 CAMERA_IN_HAND = np.array([0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
 # Seen from the front along +x: tag x to the right (-y), y up (+z), z toward the viewer (-x).
 TAG = np.array([0.8, 0.0, 0.65, 0.5, -0.5, -0.5, 0.5])

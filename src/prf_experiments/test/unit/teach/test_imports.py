@@ -7,11 +7,11 @@ import unittest
 
 import h5py
 import numpy as np
+from prf_experiments.judge import judge
+from prf_experiments.teach import demonstration, imports
 from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
-from prf_experiments.judge import judge
-from prf_experiments.teach import demonstration, imports
 
 TIMES = np.linspace(0.0, 4.0, 201)
 UPRIGHT = [0.5, 0.5, 0.5, 0.5]  # the hand looks along x, the camera above it

@@ -8,9 +8,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-import synthetic  # noqa: E402
-from prf_experiments import geometry  # noqa: E402
-from prf_experiments.teach import demonstration, teaching  # noqa: E402
+import synthetic
+from prf_experiments.teach import demonstration, teaching
+
+from prf_experiments import geometry
 
 UPRIGHT = [0.5, 0.5, 0.5, 0.5]
 
@@ -53,7 +54,7 @@ class Teaching(unittest.TestCase):
         with self.assertRaisesRegex(demonstration.DemonstrationError, "never moves"):
             self.convert(data, hand)
 
-    def test_refuses_a_tag_unseen_at_the_end(self):
+    def test_refuses_a_tag_not_seen_at_the_end(self):
         data = synthetic.make_recording(3.0)
         data.detections[20:] = np.nan
         with self.assertRaisesRegex(demonstration.DemonstrationError, "not seen"):
