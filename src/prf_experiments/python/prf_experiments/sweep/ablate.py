@@ -9,5 +9,5 @@ AXES = {"predictor": ["periodic", "ukf", "constant_velocity", "hold"],
         "decision": ["hmm", "forward"], "planner": ["elte", "dmp"]}
 FIXED = {"motion": "heavy", "gait": "step"}
 
-STUDY = Study("Ablation", AXES, FIXED, partial(table.summarise, axes=tuple(AXES)), table.text,
+STUDY = Study("Ablation", table.MEANING, AXES, FIXED, partial(table.summarise, axes=tuple(AXES)), table.text,
               table.sections)

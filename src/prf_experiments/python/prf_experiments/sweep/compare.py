@@ -113,4 +113,9 @@ def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
                     [page.table(linked, ("motion", "planner", "tests"))])]
 
 
-STUDY = Study("Planners", AXES, FIXED, summarise, text, sections)
+MEANING = (
+    "Planners compared on the same seeds, stepping. Tests: the verdict of each seed. The second table "
+    "has what the first\nplanner has less than another one with the same seed, paired t-test and "
+    "Wilcoxon's signed-rank test.")
+
+STUDY = Study("Planners", MEANING, AXES, FIXED, summarise, text, sections)

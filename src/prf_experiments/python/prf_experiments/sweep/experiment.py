@@ -68,6 +68,8 @@ def parser():
         sweep.add_argument("--any-version", action="store_true",
                            help="resumes also what another version of the code began")
         sweep.add_argument("--json", metavar="FILE", help="writes the numbers there too")
+        sweep.add_argument("--results-page", metavar="FILE.md",
+                           help="writes the table there with the command that gives it")
     return result
 
 
@@ -106,7 +108,7 @@ def main(words):
         from prf_experiments.sweep import study
         described = importlib.import_module("prf_experiments.sweep." + options.experiment).STUDY
         shown = [word for word in words if not word.startswith("results:=")]
-        return study.main(described, options, "./run_experiment " + " ".join(shown))
+        return study.main(described, options, "./run_experiment " + " ".join(shown), named)
     from prf_experiments.run import trial
     return trial.main(named)
 

@@ -63,4 +63,6 @@ def sections(_summary: dict, results: list[dict], folder: str) -> list[Section]:
     return found
 
 
-STUDY = Study("Reactive execution", {}, FIXED, summarise, text, sections, seeds=1, keep_bags="all")
+MEANING = "One trial in detail: how far forecasts are from the target, and how well it is followed."
+
+STUDY = Study("Reactive execution", MEANING, {}, FIXED, summarise, text, sections, seeds=1, keep_bags="all")

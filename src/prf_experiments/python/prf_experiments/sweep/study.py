@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all experiments share: axes, sweep, numbers as text, JSON and page."""
+import argparse
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from prf_experiments.record import recording
@@ -21,6 +22,7 @@ class Study:
     """One experiment. `results` are the verdicts of all trials, in the order of the axes."""
 
     title: str
+    meaning: str  # what the columns are, for the results page
     axes: dict  # {argument: values}, the seed is added as the last one
     fixed: dict  # {argument: value} that is not the default
     summarise: Callable  # results -> {key: ...}, goes into the JSON file
@@ -112,7 +114,20 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
                                  text=study.text(summary), sections=sections))
 
 
-def run(study, options, command):
+def reproducing(options: argparse.Namespace, named: Sequence[str]) -> str:
+    """The command with what its numbers depend on, and nothing else."""
+    seeds = [f"--seeds {options.seeds}"] if options.seeds else []
+    return " ".join(["./run_experiment", options.experiment, *seeds,
+                     *(word for word in named if not word.startswith("results:="))])
+
+
+def results_page(study: Study, command: str, text: str) -> str:
+    """The table as the terminal shows it, for docs/results. The same numbers give the same page."""
+    return f"# {study.title}\n\n{study.meaning}\n\n```\n{command}\n```\n\n```text\n{text}```\n"
+
+
+def run(study: Study, options: argparse.Namespace, command: str, named: Sequence[str]) -> int:
+    """Runs the trials, writes and prints their numbers. Returns the exit code."""
     folder = os.path.join(options.values.get("results", [os.path.abspath("results")])[0],
                           options.name)
     versions = trial.versions()
@@ -125,11 +140,14 @@ def run(study, options, command):
         with open(path, "w", encoding="utf-8") as stream:
             json.dump(summary, stream, indent=2)
             stream.write("\n")
+    if options.results_page:
+        with open(options.results_page, "w", encoding="utf-8") as stream:
+            stream.write(results_page(study, reproducing(options, named), study.text(summary)))
     index = os.path.join(folder, "index.html")
     write_page(index, study, command, versions, results, summary)
     print(study.text(summary) + "\n" + index)
     return EXIT_INVALID if any(result["verdict"] == "INVALID" for result in results) else EXIT_OK
 
 
-def main(study, options, command):
-    return session.guarded("run_experiment", lambda: run(study, options, command))
+def main(study: Study, options: argparse.Namespace, command: str, named: Sequence[str]) -> int:
+    return session.guarded("run_experiment", lambda: run(study, options, command, named))

@@ -145,14 +145,16 @@ def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
                verdict_links(found), percent(numbers["success"]), percent(numbers["inspected"]))
               for (chosen, found), numbers in zip(cells(results, axes), summary["cells"])]
     return [
-        Section("Each test", "Every letter leads to its trial. S success, P partial success, "
-                "F failure, × no evidence. Rates are of the valid trials, with Wilson's 95 % "
-                "interval. Off axis: mean distance of the tag's centre from the optical axis while "
-                "tracking. Contact: the largest of arm, hand or camera.",
+        Section("Each test", "Every letter leads to its trial. " + MEANING,
                 [page.table(linked,
                             (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)"))]),
         Section("Counts", body=[counts_figure(summary)]),
         Section("Distances", body=[distance_figure(summary, results)])]
 
 
-STUDY = Study("Trials", AXES, {}, summarise, text, sections)
+MEANING = (
+    "S success, P partial success, F failure, inv no evidence; one letter for each seed. Rates are of "
+    "the valid trials, with\nWilson's 95 % interval. Off axis: mean distance of the tag's centre from "
+    "the camera's optical axis while tracking.\nContact: the largest force of arm, hand or camera.")
+
+STUDY = Study("Trials", MEANING, AXES, {}, summarise, text, sections)
