@@ -78,7 +78,7 @@ class Reached(unittest.TestCase):
         for lateral, along, inspected in (
                 (0.04 - MICROMETRE, 0.3, True), (0.04 + MICROMETRE, 0.3, False),
                 (0.0, 0.34 - MICROMETRE, True), (0.0, 0.34 + MICROMETRE, False),
-                (0.0, 0.26 - MICROMETRE, False)):
+                (0.0, 0.26 + MICROMETRE, True), (0.0, 0.26 - MICROMETRE, False)):
             data = synthetic.make_recording(lateral=lateral, along=along)
             self.assertEqual(judge.judge(data).inspected, inspected, (lateral, along))
         self.assertTrue(judge.judge(at_stand_off_for(201)).inspected)
@@ -178,14 +178,14 @@ class Failures(unittest.TestCase):
         return data
 
     def test_low_body_has_fallen(self):
-        self.assertEqual(judge.judge(self.base_at(0.36, 0.0)).verdict, "S")
-        verdict = judge.judge(self.base_at(0.34, 0.0))
+        self.assertEqual(judge.judge(self.base_at(0.35 + MICROMETRE, 0.0)).verdict, "S")
+        verdict = judge.judge(self.base_at(0.35 - MICROMETRE, 0.0))
         self.assertEqual(verdict.verdict, "F")
         self.assertIn("the robot fell at 5.00 s", verdict.reason)
 
     def test_tilted_body_has_fallen(self):
-        self.assertEqual(judge.judge(self.base_at(0.53, np.radians(29.0))).verdict, "S")
-        self.assertEqual(judge.judge(self.base_at(0.53, np.radians(31.0))).verdict, "F")
+        self.assertEqual(judge.judge(self.base_at(0.53, np.radians(29.999))).verdict, "S")
+        self.assertEqual(judge.judge(self.base_at(0.53, np.radians(30.001))).verdict, "F")
 
     def test_posture_counts_against_the_deck_not_the_world(self):
         data = synthetic.make_recording()
@@ -233,7 +233,9 @@ class Evidence(unittest.TestCase):
 
     def test_a_series_that_ends_early_invalidates(self):
         data = synthetic.make_recording()
-        data.contact_stamps = data.contact_stamps[:-2]
+        data.contact_stamps = data.contact_stamps[:-1]
+        self.assertEqual(judge.judge(data).verdict, "S")
+        data.contact_stamps = data.contact_stamps[:-1]
         self.assertIn("ground_truth/contacts", self.reason(data))
 
     def test_images_without_detections_message_invalidate(self):

@@ -62,6 +62,10 @@ class Imports(unittest.TestCase):
         self.assertEqual(found.times[0], 0.0)
         self.assertAlmostEqual(found.times[-1], 4.0, delta=0.03)
         np.testing.assert_allclose(np.diff(found.times), 0.05, atol=0.001)
+        np.testing.assert_allclose(found.poses[:, 0], 0.3 + 0.3 * found.times / 4.0, atol=1e-5)
+        turned = geometry.rotation(found.poses) * Rotation.from_quat(UPRIGHT).inv()
+        np.testing.assert_allclose(turned.as_rotvec()[:, 2], 0.3 * (1 - found.times / 4.0),
+                                   atol=1e-5)
         np.testing.assert_allclose(found.poses[0], motion()[0], atol=1e-5)
         np.testing.assert_allclose(found.poses[-1], motion()[-1], atol=1e-5)
 

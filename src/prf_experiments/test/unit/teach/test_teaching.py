@@ -45,8 +45,10 @@ class Teaching(unittest.TestCase):
         hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
         target = self.convert(data, hand).target_pose
         camera = geometry.compose(hand[-1], [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
-        np.testing.assert_allclose(target[:3], geometry.compose(camera, data.detections[-1])[:3],
-                                   atol=1e-9)
+        expected = geometry.compose(camera, data.detections[-1])
+        np.testing.assert_allclose(target[:3], expected[:3], atol=1e-9)
+        turned = geometry.rotation(target) * geometry.rotation(expected).inv()
+        self.assertLess(turned.magnitude(), 1e-9)
 
     def test_refuses_a_hand_that_never_moves(self):
         data = synthetic.make_recording(2.0)
@@ -64,8 +66,12 @@ class Teaching(unittest.TestCase):
         times = np.linspace(0.0, 1.0, 11)
         poses = geometry.make(np.zeros((11, 3)), Rotation.from_euler("z", 0.1 * np.arange(11)))
         poses[5:, 3:] *= -1.0
-        quaternions = teaching.resample(times, poses, 50.0)[1][:, 3:]
+        at, resampled = teaching.resample(times, poses, 50.0)
+        quaternions = resampled[:, 3:]
+        self.assertEqual(len(at), 51)
         self.assertTrue(np.all(np.sum(quaternions[1:] * quaternions[:-1], axis=1) > 0.9))
+        np.testing.assert_allclose(geometry.rotation(resampled).as_rotvec(),
+                                   np.outer(at, [0.0, 0.0, 1.0]), atol=1e-9)
 
 
 if __name__ == "__main__":
