@@ -18,10 +18,11 @@ UPRIGHT = [0.5, 0.5, 0.5, 0.5]  # the hand looks along x, the camera above it
 
 
 def motion():
-    """A hand that goes 0.3 m along x in 4 s, turned by a little less than UPRIGHT at first."""
+    """A hand that goes 0.3 m along x in 4 s over a hump, turned by a little less than UPRIGHT at first."""
     x = 0.3 + 0.3 * TIMES / 4.0
     turned = Rotation.from_euler("z", 0.3 * (1 - TIMES / 4.0)) * Rotation.from_quat(UPRIGHT)
-    return geometry.make(np.column_stack([x, 0 * x, 0.5 + 0 * x]), turned)
+    z = 0.5 + 0.05 * np.sin(np.pi * TIMES / 4.0)
+    return geometry.make(np.column_stack([x, 0 * x, z]), turned)
 
 
 class Imports(unittest.TestCase):
@@ -63,6 +64,8 @@ class Imports(unittest.TestCase):
         self.assertAlmostEqual(found.times[-1], 4.0, delta=0.03)
         np.testing.assert_allclose(np.diff(found.times), 0.05, atol=0.001)
         np.testing.assert_allclose(found.poses[:, 0], 0.3 + 0.3 * found.times / 4.0, atol=1e-5)
+        np.testing.assert_allclose(found.poses[:, 2], 0.5 + 0.05 * np.sin(np.pi * found.times / 4.0),
+                                   atol=1e-5)
         turned = geometry.rotation(found.poses) * Rotation.from_quat(UPRIGHT).inv()
         np.testing.assert_allclose(turned.as_rotvec()[:, 2], 0.3 * (1 - found.times / 4.0),
                                    atol=1e-5)
