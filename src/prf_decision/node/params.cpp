@@ -78,7 +78,7 @@ DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
   return params;
 }
 
-std::vector<prf_ros::ReconfigurableParams::Number> reconfigurable_numbers(
+std::vector<prf_ros::ReconfigurableParams::Parameter> reconfigurable_numbers(
     const DecisionParams& params) {
   return {{"dwell_time", to_seconds(params.dwell_time), "s, least time in a state for the HMM"},
           {"hold_time", to_seconds(params.hold_time), "s, to track until done; next execution"},

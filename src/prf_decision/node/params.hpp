@@ -32,7 +32,7 @@ struct DecisionNodeParams {
 [[nodiscard]] DecisionNodeParams load_params(prf_ros::PrivateParameters values);
 
 // The parameters that can be changed while the node runs, and `params` with changed ones.
-[[nodiscard]] std::vector<prf_ros::ReconfigurableParams::Number> reconfigurable_numbers(
+[[nodiscard]] std::vector<prf_ros::ReconfigurableParams::Parameter> reconfigurable_numbers(
     const DecisionParams& params);
 [[nodiscard]] DecisionParams with_reconfigured(const DecisionParams& params,
                                                const prf_ros::ReconfigurableParams::Values& values);
