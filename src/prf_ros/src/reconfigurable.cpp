@@ -3,8 +3,8 @@
 
 #include <dynamic_reconfigure/ConfigDescription.h>
 
-#include <cmath>
 #include <limits>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 namespace prf_ros {
@@ -24,10 +24,11 @@ void refuse_all(const Items& items) {
 }  // namespace
 
 ReconfigurableParams::ReconfigurableParams(const ros::NodeHandle& private_handle,
-                                           const std::vector<Number>& numbers, const Apply& apply)
+                                           const std::vector<Parameter>& parameters,
+                                           const Apply& apply)
     : handle_(private_handle), apply_(apply) {
-  for (const Number& number : numbers) values_[number.name] = number.value;
-  describe(numbers);
+  for (const Parameter& parameter : parameters) values_[parameter.name] = parameter.value;
+  describe(parameters);
   updates_ = handle_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   updates_.publish(config());
   service_ = handle_.advertiseService<Request, Response>(
@@ -35,12 +36,12 @@ ReconfigurableParams::ReconfigurableParams(const ros::NodeHandle& private_handle
       [this](Request& request, Response& response) { return change(request, response); });
 }
 
-// An exception out of here reaches the caller as the text of the service's error.
+// The caller of the service gets the text of an exception as its error.
 bool ReconfigurableParams::change(const Request& request, Response& response) {
   try {
-    const Values wanted = changed(request.config);
-    apply_(wanted);
-    values_ = wanted;
+    const Values requested = requested_values(request.config);
+    apply_(requested);
+    values_ = requested;
   } catch (const std::invalid_argument& error) {
     ROS_WARN("change of parameters refused: %s", error.what());
     throw;
@@ -54,22 +55,19 @@ bool ReconfigurableParams::change(const Request& request, Response& response) {
   return true;
 }
 
-ReconfigurableParams::Values ReconfigurableParams::changed(
+ReconfigurableParams::Values ReconfigurableParams::requested_values(
     const dynamic_reconfigure::Config& config) const {
   refuse_all(config.bools);
   refuse_all(config.ints);
   refuse_all(config.strs);
-  Values wanted = values_;
+  Values requested = values_;
   for (const auto& number : config.doubles) {
-    const auto found = wanted.find(number.name);
-    if (found == wanted.end()) refuse_unknown(number.name);
-    if (!std::isfinite(number.value)) {
-      throw std::invalid_argument(number.name + " is " + std::to_string(number.value) +
-                                  ", must be finite");
-    }
+    const auto found = requested.find(number.name);
+    if (found == requested.end()) refuse_unknown(number.name);
+    prf_core::require_finite(number.name, number.value);
     found->second = number.value;
   }
-  return wanted;
+  return requested;
 }
 
 dynamic_reconfigure::Config ReconfigurableParams::config() const {
@@ -85,16 +83,16 @@ dynamic_reconfigure::Config ReconfigurableParams::config() const {
   return config;
 }
 
-void ReconfigurableParams::describe(const std::vector<Number>& numbers) {
+void ReconfigurableParams::describe(const std::vector<Parameter>& parameters) {
   dynamic_reconfigure::ConfigDescription description;
   description.groups.resize(1);
   description.groups[0].name = kGroup;
-  for (const Number& number : numbers) {
-    auto& parameters = description.groups[0].parameters;
-    parameters.emplace_back();
-    parameters.back().name = number.name;
-    parameters.back().type = "double";
-    parameters.back().description = number.meaning;
+  for (const Parameter& parameter : parameters) {
+    dynamic_reconfigure::ParamDescription described;
+    described.name = parameter.name;
+    described.type = "double";
+    described.description = parameter.meaning;
+    description.groups[0].parameters.push_back(described);
   }
   description.dflt = description.min = description.max = config();
   for (auto& number : description.min.doubles) number.value = std::numeric_limits<double>::lowest();

@@ -26,7 +26,7 @@ XmlRpcValue sample() {
 }
 
 template <typename Call>
-std::string complaint(Call call) {
+std::string refusal(Call call) {
   try {
     call();
   } catch (const std::invalid_argument& error) {
@@ -54,34 +54,33 @@ TEST(PrivateParameters, ReadsABlockAsStrictly) {
   PrivateParameters values(all);
   PrivateParameters camera = values.section("camera");
   EXPECT_EQ(camera.number("noise"), 4.0);
-  EXPECT_THAT(complaint([&] { (void)camera.text("noise"); }), HasSubstr("camera/noise = 4"));
-  EXPECT_THAT(complaint([&] { (void)camera.number("width"); }),
-              HasSubstr("camera/width is missing"));
-  EXPECT_THAT(complaint([&] { camera.refuse_unknown(); }), HasSubstr("camera/gain = 1"));
-  EXPECT_THAT(complaint([&] { (void)values.section("rate"); }), HasSubstr("a block"));
+  EXPECT_THAT(refusal([&] { (void)camera.text("noise"); }), HasSubstr("camera/noise = 4"));
+  EXPECT_THAT(refusal([&] { (void)camera.number("width"); }), HasSubstr("camera/width is missing"));
+  EXPECT_THAT(refusal([&] { camera.refuse_unknown(); }), HasSubstr("camera/gain = 1"));
+  EXPECT_THAT(refusal([&] { (void)values.section("rate"); }), HasSubstr("a block"));
 }
 
 TEST(PrivateParameters, NamesTheMissingKey) {
   PrivateParameters values(sample());
-  EXPECT_THAT(complaint([&] { (void)values.number("radius"); }), HasSubstr("radius is missing"));
+  EXPECT_THAT(refusal([&] { (void)values.number("radius"); }), HasSubstr("radius is missing"));
 }
 
 TEST(PrivateParameters, NamesKeyValueAndTypeWhenTheTypeIsWrong) {
   PrivateParameters values(sample());
-  EXPECT_EQ(complaint([&] { (void)values.integer("rate"); }), "rate = 2.5, must be an integer");
-  EXPECT_EQ(complaint([&] { (void)values.number("planner"); }), "planner = elte, must be a number");
-  EXPECT_EQ(complaint([&] { (void)values.flag("nodes"); }), "nodes = 50, must be true or false");
-  EXPECT_EQ(complaint([&] { (void)values.text("nodes"); }), "nodes = 50, must be a string");
-  EXPECT_THAT(complaint([&] { (void)values.numbers("rate"); }), HasSubstr("rate = 2.5"));
-  EXPECT_THAT(complaint([&] { (void)values.numbers("gains", 3); }), HasSubstr("list of 3 numbers"));
-  EXPECT_THAT(complaint([&] { (void)values.integers("gains"); }), HasSubstr("list of integers"));
+  EXPECT_EQ(refusal([&] { (void)values.integer("rate"); }), "rate = 2.5, must be an integer");
+  EXPECT_EQ(refusal([&] { (void)values.number("planner"); }), "planner = elte, must be a number");
+  EXPECT_EQ(refusal([&] { (void)values.flag("nodes"); }), "nodes = 50, must be true or false");
+  EXPECT_EQ(refusal([&] { (void)values.text("nodes"); }), "nodes = 50, must be a string");
+  EXPECT_THAT(refusal([&] { (void)values.numbers("rate"); }), HasSubstr("rate = 2.5"));
+  EXPECT_THAT(refusal([&] { (void)values.numbers("gains", 3); }), HasSubstr("list of 3 numbers"));
+  EXPECT_THAT(refusal([&] { (void)values.integers("gains"); }), HasSubstr("list of integers"));
 }
 
 TEST(PrivateParameters, RefusesAKeyThatNothingReads) {
   XmlRpcValue one;
   one["raet"] = 1.0;
   const PrivateParameters values(one);
-  EXPECT_THAT(complaint([&] { values.refuse_unknown(); }), HasSubstr("raet = 1"));
+  EXPECT_THAT(refusal([&] { values.refuse_unknown(); }), HasSubstr("raet = 1"));
 }
 
 TEST(PrivateParameters, LeavesReservedKeysOfRosAlone) {

@@ -30,7 +30,8 @@ class PrivateParameters {
   [[nodiscard]] std::vector<double> numbers(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key, int count);  // exactly so many
   [[nodiscard]] std::vector<int> integers(const std::string& key);
-  // A block of parameters; complaints call them block/key. It refuses its own unknown keys.
+  // A block of parameters; error messages call them block/key. A block
+  // refuses its own unknown keys.
   [[nodiscard]] PrivateParameters section(const std::string& key);
 
   // To be called once everything has been read. Keys that begin with "__" are ROS's own.
@@ -45,7 +46,7 @@ class PrivateParameters {
   XmlRpc::XmlRpcValue& list(const std::string& key, const std::string& must);
 
   XmlRpc::XmlRpcValue values_;
-  std::string prefix_;  // of the keys, in complaints
+  std::string prefix_;  // of the keys, in error messages
   std::set<std::string> read_;
 };
 

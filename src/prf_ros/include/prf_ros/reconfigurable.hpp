@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that a person may change while a node runs, over dynamic_reconfigure's protocol
-// (dynparam, rqt_reconfigure): applied whole, between two callbacks of the node, or refused whole
-// with the reason. Nothing is clipped. Beside them the node's parameters stay as they were at its
-// start.
+// Parameters that a person may change while a node runs, over the protocol of dynamic_reconfigure
+// (dynparam, rqt_reconfigure). A change takes effect as a whole, between two callbacks of the node,
+// or is refused as a whole with the reason; values are never clipped. All other parameters of the
+// node stay as they were at its start.
 //
-//   ReconfigurableParams reconfigurable(ros::NodeHandle("~"), {{"gain", 1.0, "what it does,
-//   unit"}},
-//                       [&](const ReconfigurableParams::Values& values) {
-//                       core.tune(values.at("gain"));
-//                       });
+//   ReconfigurableParams reconfigurable(
+//       ros::NodeHandle("~"), {{"gain", 1.0, "what it does, unit"}},
+//       [&](const ReconfigurableParams::Values& values) { core.tune(values.at("gain")); });
+//
+// What is in force is latched on ~parameter_updates and kept on the parameter server, so that a
+// node that is started again keeps it.
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>
@@ -24,26 +25,26 @@ namespace prf_ros {
 
 class ReconfigurableParams {
  public:
-  struct Number {
+  struct Parameter {
     std::string name;
     double value;  // at the start
     std::string meaning;
   };
-  using Values = std::map<std::string, double>;  // of all numbers
+  using Values = std::map<std::string, double>;  // of all reconfigurable parameters, by name
   using Apply = std::function<void(const Values&)>;
 
-  // `apply` throws std::invalid_argument to refuse; then nothing may have changed.
-  ReconfigurableParams(const ros::NodeHandle& private_handle, const std::vector<Number>& numbers,
-                       const Apply& apply);
+  // `apply` throws std::invalid_argument to refuse a change, and then has changed nothing.
+  ReconfigurableParams(const ros::NodeHandle& private_handle,
+                       const std::vector<Parameter>& parameters, const Apply& apply);
 
  private:
   using Request = dynamic_reconfigure::Reconfigure::Request;
   using Response = dynamic_reconfigure::Reconfigure::Response;
 
   bool change(const Request& request, Response& response);
-  [[nodiscard]] Values changed(const dynamic_reconfigure::Config& config) const;
+  [[nodiscard]] Values requested_values(const dynamic_reconfigure::Config& config) const;
   [[nodiscard]] dynamic_reconfigure::Config config() const;
-  void describe(const std::vector<Number>& numbers);
+  void describe(const std::vector<Parameter>& parameters);
 
   ros::NodeHandle handle_;
   Apply apply_;

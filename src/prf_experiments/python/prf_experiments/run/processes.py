@@ -156,7 +156,7 @@ class Recorder:
         self._log_file = log_file
         with open(log_file, "w", encoding="utf-8") as log:
             self._process = subprocess.Popen(
-                [executable("prf_experiments", "recorder_node"), bag,
+                [executable("prf_ros", "recorder"), bag,
                  *("/" + topic for topic in topics), f"__name:={name}"],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
                 preexec_fn=_end_with_parent)

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tf of the robot, one message for every joint_states.
 //
-// Stands in for robot_state_publisher, which keeps only the newest of the joint_states that wait
-// for it and stamps fixed frames with the time of day: with it, what the framework sees would
-// depend on the load of the machine.
+// It replaces Debian's robot_state_publisher. That node keeps only the newest of the joint_states
+// that wait for it, and its library stamps fixed frames with the present time: the frames that the
+// framework sees would depend on the load of the machine.
 #include <geometry_msgs/TransformStamped.h>
+#include <prf_msgs/topics.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "frame_tree.hpp"
+#include "prf_ros/conversions.hpp"
+#include "prf_ros/frame_tree.hpp"
+#include "prf_ros/private_parameters.hpp"
 
+namespace prf_ros {
 namespace {
-
-using jaco_v60_description::FrameTree;
-using jaco_v60_description::LinkFrame;
 
 constexpr unsigned kQueue = 1000;
 
@@ -31,27 +31,21 @@ std::vector<geometry_msgs::TransformStamped> to_messages(const std::vector<LinkF
     message.header.stamp = stamp;
     message.header.frame_id = frame.parent;
     message.child_frame_id = frame.child;
-    const Eigen::Vector3d position = frame.child_in_parent.translation();
-    const Eigen::Quaterniond rotation(frame.child_in_parent.linear());
-    message.transform.translation.x = position.x();
-    message.transform.translation.y = position.y();
-    message.transform.translation.z = position.z();
-    message.transform.rotation.x = rotation.x();
-    message.transform.rotation.y = rotation.y();
-    message.transform.rotation.z = rotation.z();
-    message.transform.rotation.w = rotation.w();
+    message.transform.translation = to_vector3(frame.child_in_parent.translation());
+    message.transform.rotation = to_message(Eigen::Quaterniond(frame.child_in_parent.linear()));
     messages.push_back(message);
   }
   return messages;
 }
 
-void publish_frames(const FrameTree& tree) {
+void publish_frames() {
   ros::NodeHandle node;
+  const FrameTree tree(node.param<std::string>("robot_description", ""));
   tf2_ros::StaticTransformBroadcaster fixed;
   tf2_ros::TransformBroadcaster moving;
   fixed.sendTransform(to_messages(tree.fixed(), ros::Time(0)));
   const ros::Subscriber joints = node.subscribe<sensor_msgs::JointState>(
-      "joint_states", kQueue,
+      prf_msgs::topics::kJointStates, kQueue,
       [&](const sensor_msgs::JointStateConstPtr& message) {
         moving.sendTransform(
             to_messages(tree.moving(message->name, message->position), message->header.stamp));
@@ -61,15 +55,9 @@ void publish_frames(const FrameTree& tree) {
 }
 
 }  // namespace
+}  // namespace prf_ros
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "robot_state_publisher");
-  try {
-    const std::string urdf = ros::NodeHandle().param<std::string>("robot_description", "");
-    publish_frames(FrameTree(urdf));
-  } catch (const std::invalid_argument& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  return prf_ros::run(prf_ros::publish_frames);
 }

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace jaco_v60_description {
+namespace prf_ros {
 
 struct LinkFrame {
   std::string parent;
@@ -40,4 +40,4 @@ class FrameTree {
   std::unordered_map<std::string, MovingJoint> joints_;
 };
 
-}  // namespace jaco_v60_description
+}  // namespace prf_ros

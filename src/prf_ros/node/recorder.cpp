@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records topics into one LZ4 bag and loses none of their messages:
-//   recorder_node BAG TOPIC [TOPIC ...]
+//   recorder BAG TOPIC [TOPIC ...]
 //
 // Stands in for `rosbag record`, whose queue of 100 messages a topic overflows when a trial runs
 // faster than the machine can write, and which says nothing about it. Until it is closed the bag is
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "recorder");
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2) {
-    ROS_FATAL("usage: recorder_node BAG TOPIC [TOPIC ...]");
+    ROS_FATAL("usage: recorder BAG TOPIC [TOPIC ...]");
     return 2;
   }
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frame_tree.hpp"
+#include "prf_ros/frame_tree.hpp"
 
 #include <urdf_parser/urdf_parser.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace jaco_v60_description {
+namespace prf_ros {
 namespace {
 
 Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
@@ -58,4 +58,4 @@ std::vector<LinkFrame> FrameTree::moving(const std::vector<std::string>& names,
   return frames;
 }
 
-}  // namespace jaco_v60_description
+}  // namespace prf_ros
