@@ -43,7 +43,9 @@ class Reconfigurable : public testing::Test {
       service.request.config.strs.back().name = text;
     }
     const bool accepted = ros::service::call("~set_parameters", service);
-    if (accepted) EXPECT_EQ(values_of(service.response.config), applied_.back());
+    if (accepted) {
+      EXPECT_EQ(values_of(service.response.config), applied_.back());
+    }
     return accepted;
   }
 

@@ -29,11 +29,11 @@ struct TargetForecast {
   Stamp stamp{0};
   TargetStatus status = TargetStatus::kNoTarget;
   Duration since_measurement{0};              // at the stamp, since the last accepted measurement
-  std::vector<TargetPrediction> predictions;  // horizons strictly rising from 0; none: no target
+  std::vector<TargetPrediction> predictions;  // horizons rise strictly from 0
 
-  // Finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0,
-  // predictions unless there is no target. Throws std::invalid_argument naming the member, its
-  // value and the bound.
+  // Finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0, at
+  // least one prediction while tracking or coasting. Throws std::invalid_argument naming the
+  // member, its value and the bound.
   void validate() const;
 };
 

@@ -5,12 +5,13 @@
 //
 // Primaries come out in the order in which they were pushed, each once. The oldest is decided when
 //
-//   a secondary with stamp = key has come                        -> joined with it
-//   a later secondary has come                                   -> alone: it was never sent
-//   the primary stream has gone on by more than max_wait, or
-//   more than `capacity` primaries wait                          -> alone: the secondary is silent,
-//                                                                   and not waited for until one
-//                                                                   comes again
+//   a secondary with stamp = key has come                       -> joined with it
+//   a later secondary has come                                  -> alone: it was never sent
+//   the primary stream has gone on by more than max_wait        -> alone: the secondary is silent,
+//                                                                  and not waited for until one
+//                                                                  comes again
+//   more than `capacity` primaries wait                         -> alone
+//
 // so that the results do not depend on the interleaving as long as no stream lags by max_wait.
 //
 // A run is the data between two backward jumps of a stream. A jump of the primary stream begins a
