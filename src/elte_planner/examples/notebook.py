@@ -33,6 +33,6 @@ print(around.status, "clearance", around.clearance)
 assert around.clearance >= 0.02 - 1e-12
 
 # %% The rivals, on the same demonstration.
-for planner in ("elte", "lte", "elastic_map", "dmp"):
+for planner in elte_planner.planner_names():
     y, status, slack = elte_planner.plan(planner, zeta, zeta, executed, goal)
     print(f"{planner:12} {status:8} end missed by {slack:.3g}")

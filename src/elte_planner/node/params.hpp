@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Parameters of skill_planner_node, documented in config/skill_planner.yaml.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -9,15 +10,17 @@
 
 namespace elte_planner {
 
-struct NodeParams {
+struct SkillPlannerParams {
   std::string demonstration;  // CSV file
   std::string frame;          // planning frame that demonstration and messages must be in
   double late_after = 0.0;    // s, a solve that takes longer is late; within [1e-6, 10]
   SessionParams session;
+
+  void validate() const;  // throws std::invalid_argument with name, value and bound
 };
 
 // Reads the node's private namespace: every key required, no other key allowed. Throws
 // std::invalid_argument naming the key, the value and what is allowed.
-[[nodiscard]] NodeParams load_node_params(const ros::NodeHandle& private_handle);
+[[nodiscard]] SkillPlannerParams load_params(const ros::NodeHandle& private_node);
 
 }  // namespace elte_planner

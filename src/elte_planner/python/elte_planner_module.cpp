@@ -224,7 +224,8 @@ void bind_planners(py::module_& m) {
       py::arg("planner"), py::arg("zeta"), py::arg("previous"), py::arg("executed"),
       py::arg("goal"), py::arg("radius") = 0.0, py::kw_only(), py::arg("w_elastic") = 0.001,
       py::arg("w_bending") = 0.001, py::arg("max_step") = std::numeric_limits<double>::infinity(),
-      "(y, status, slack) of planner 'elte', 'lte', 'elastic_map' or 'dmp'; y is (T, d).");
+      "(y, status, slack) of one of planner_names(); y is (T, d).");
+  m.def("planner_names", &planner_names, "What plan() and the node's parameter planner may name.");
 }
 
 Pose pose_from_row(const Eigen::Matrix<double, 7, 1>& row) {
@@ -237,10 +238,20 @@ Eigen::Matrix<double, 7, 1> row_from(const Pose& pose) {
   return row;
 }
 
+Eigen::Matrix<double, Eigen::Dynamic, 7> rows_from(const Demonstration& demonstration) {
+  const auto& samples = demonstration.samples();
+  Eigen::Matrix<double, Eigen::Dynamic, 7> rows(samples.size(), 7);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = row_from(samples[i].pose).transpose();
+  }
+  return rows;
+}
+
 Demonstration demonstration_from(const Eigen::VectorXd& times, const Eigen::MatrixXd& positions,
                                  const Eigen::MatrixXd& quaternions, const std::string& frame,
                                  const std::string& child_frame,
-                                 const Eigen::Matrix<double, 7, 1>& target) {
+                                 const Eigen::Matrix<double, 7, 1>& target,
+                                 const Demonstration::Notes& notes) {
   const Eigen::Index count = times.size();
   if (positions.rows() != count || positions.cols() != 3 || quaternions.rows() != count ||
       quaternions.cols() != 4) {
@@ -256,18 +267,23 @@ Demonstration demonstration_from(const Eigen::VectorXd& times, const Eigen::Matr
     row << positions.row(i).transpose(), quaternions.row(i).transpose();
     samples.push_back({times[i], pose_from_row(row)});
   }
-  return Demonstration(std::move(samples), frame, child_frame, pose_from_row(target));
+  return Demonstration(std::move(samples), frame, child_frame, pose_from_row(target), notes);
 }
 
 void bind_demonstration(py::module_& m) {
   py::class_<Demonstration>(m, "Demonstration", "Timed poses of a demonstrated skill.")
       .def(py::init(&demonstration_from), py::arg("times"), py::arg("positions"),
            py::arg("quaternions"), py::arg("frame"), py::arg("child_frame"), py::arg("target"),
+           py::arg("notes") = Demonstration::Notes{},
            "times: (N,), s from 0. positions: (N, 3), m. quaternions: (N, 4), x y z w. target:\n"
-           "(7,), position and quaternion of the target in frame.")
+           "(7,), position and quaternion of the target in frame. notes: further lines of the file.")
       .def_property_readonly(
           "target", [](const Demonstration& d) { return row_from(d.target()); },
           "(7,), x y z qx qy qz qw.")
+      .def_property_readonly(
+          "goal_in_target", [](const Demonstration& d) { return row_from(d.goal_in_target()); },
+          "(7,), last pose in the target's frame.")
+      .def_property_readonly("notes", &Demonstration::notes, "dict of the other lines `# key: value`.")
       .def_property_readonly("frame", &Demonstration::frame)
       .def_property_readonly("child_frame", &Demonstration::child_frame)
       .def_property_readonly("positions", &Demonstration::positions, "(N, 3), m.")
@@ -284,16 +300,9 @@ void bind_demonstration(py::module_& m) {
           "(N,), s from the start.")
       .def_property_readonly(
           "quaternions",
-          [](const Demonstration& demonstration) {
-            const auto& samples = demonstration.samples();
-            Eigen::MatrixXd result(static_cast<Eigen::Index>(samples.size()), 4);
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-              result.row(static_cast<Eigen::Index>(i)) =
-                  samples[i].pose.orientation.coeffs().transpose();
-            }
-            return result;
-          },
+          [](const Demonstration& d) { return Eigen::MatrixXd(rows_from(d).rightCols<4>()); },
           "(N, 4), x y z w.")
+      .def_property_readonly("poses", &rows_from, "(N, 7), x y z qx qy qz qw.")
       .def("resampled_by_arc_length", &Demonstration::resampled_by_arc_length, py::arg("nodes"),
            "nodes samples equally spaced along the path.")
       .def("resampled_by_douglas_peucker", &Demonstration::resampled_by_douglas_peucker,
@@ -318,6 +327,9 @@ void bind_demonstration(py::module_& m) {
       "The mean of several demonstrations of one skill, relative to their targets, as one.");
   m.def("load_demonstration", &load_demonstration, py::arg("path"),
         "Read the CSV form; raises ValueError with file, line, column, value and bound.");
+  m.def("save_demonstration", &save_demonstration, py::arg("demonstration"), py::arg("path"),
+        "Write the CSV form: times in microseconds, poses to nine decimals. Raises ValueError when\n"
+        "it cannot be written or would not be read back.");
 }
 
 }  // namespace

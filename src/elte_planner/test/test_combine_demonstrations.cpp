@@ -26,9 +26,9 @@ Demonstration arch(double height) {
 }
 
 Demonstration in_place_of(const Demonstration& d, const Pose& target) {
-  const Eigen::Isometry3d motion = target.transform() * d.target().transform().inverse();
+  const Eigen::Isometry3d motion = target.isometry() * d.target().isometry().inverse();
   std::vector<TimedPose> samples = d.samples();
-  for (TimedPose& sample : samples) sample.pose = pose_from(motion * sample.pose.transform());
+  for (TimedPose& sample : samples) sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
   return Demonstration(samples, "arm", "hand", target);
 }
 
@@ -112,8 +112,8 @@ TEST(Combined, WarpingMatchesPlacesWhereArcLengthDoesNot) {
   const Demonstration detour(samples, "arm", "hand", Pose{});
   const auto middle_error = [&](Alignment alignment) {
     const Eigen::MatrixXd mean = combined({arch(0.3), detour}, 60, alignment).positions();
-    const Eigen::MatrixXd wanted = arch(0.3).resampled_by_arc_length(60).positions();
-    return (mean - wanted).middleRows(20, 20).rowwise().norm().maxCoeff();
+    const Eigen::MatrixXd expected = arch(0.3).resampled_by_arc_length(60).positions();
+    return (mean - expected).middleRows(20, 20).rowwise().norm().maxCoeff();
   };
   EXPECT_LT(middle_error(Alignment::kDynamicTimeWarping), 0.02);
   EXPECT_GT(middle_error(Alignment::kArcLength), 0.1);

@@ -2,8 +2,10 @@
 #include "elte_planner/demonstration.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
@@ -40,6 +42,54 @@ TEST(DemonstrationFile, ToleratesBlankLinesCommentsAndWindowsLineEnds) {
       std::string("# recorded by hand\r\n\r\n") + kMetadata +
       "time,x,y,z,qx,qy,qz,qw\r\n0,0,0,0,0,0,0,1\r\n 1 , 0.1,0,0,0,0,0,1\n\n2,0.2,0,0,0,0,0,1");
   EXPECT_EQ(demonstration.samples().size(), 3u);
+}
+
+struct SavedDemonstration : testing::Test {
+  ~SavedDemonstration() override { std::filesystem::remove(path); }
+  const std::string path = testing::TempDir() + "saved_" + std::to_string(getpid()) + ".csv";
+};
+
+TEST_F(SavedDemonstration, IsReadBackWithItsNotes) {
+  const Demonstration made = parsed("# operator: M. M.\n# when: 12:30\n" +
+                                    (std::string(kMetadata) + kHeader + kRows));
+  EXPECT_EQ(made.notes(), (Demonstration::Notes{{"operator", "M. M."}, {"when", "12:30"}}));
+  save_demonstration(made.resampled_by_arc_length(7), path);
+  const Demonstration read = load_demonstration(path);
+  const Demonstration expected = made.resampled_by_arc_length(7);
+  EXPECT_EQ(read.notes(), made.notes());
+  EXPECT_EQ(read.frame(), "arm");
+  EXPECT_EQ(read.child_frame(), "hand");
+  EXPECT_EQ(read.target().position, made.target().position);
+  ASSERT_EQ(read.samples().size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const TimedPose& a = read.samples()[i];
+    const TimedPose& b = expected.samples()[i];
+    EXPECT_NEAR(a.time, b.time, 0.51e-6);
+    EXPECT_LE((a.pose.position - b.pose.position).cwiseAbs().maxCoeff(), 0.51e-9);
+    EXPECT_LE((a.pose.orientation.coeffs() - b.pose.orientation.coeffs()).norm(), 2e-9);
+  }
+}
+
+TEST_F(SavedDemonstration, IsRefusedWhenItCannotBeReadBack) {
+  const auto refused = [this](const std::string& expected, const std::vector<TimedPose>& samples,
+                              const Demonstration::Notes& notes, const std::string& file) {
+    try {
+      save_demonstration(Demonstration(samples, "arm", "hand", Pose{}, notes), file);
+      ADD_FAILURE() << expected;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+  };
+  std::vector<TimedPose> samples = quarter_turn().samples();
+  refused("notes cannot", samples, {{"a:b", "c"}}, path);
+  refused("notes cannot", samples, {{"a", " b"}}, path);
+  refused("notes cannot", samples, {{"a", "b\n#c"}}, path);
+  refused("header is 'c'", samples, {{"a", "b\nc"}}, path);
+  refused("key 'frame' is given twice", samples, {{"frame", "arm"}}, path);
+  refused("cannot be written", samples, {}, "/nonexistent/demo.csv");
+  samples[1].time = 1e-8;  // within the microsecond of the first
+  refused("column 'time'", samples, {}, path);
 }
 
 TEST(DouglasPeucker, TakesCornersFirstAndKeepsTheirTimes) {

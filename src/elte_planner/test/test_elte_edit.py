@@ -10,6 +10,7 @@ import unittest
 
 import elte_planner
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 COMMAND = os.path.join(HERE, "..", "python", "commands", "elte_edit")
@@ -59,6 +60,35 @@ class Module(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "alignment is 'x'"):
             elte_planner.combine([demonstration], 30, alignment="x")
 
+    def test_demonstrations_are_saved_and_loaded(self):
+        demonstration = elte_planner.load_demonstration(DEMONSTRATION)
+        noted = elte_planner.Demonstration(
+            demonstration.times, demonstration.positions, demonstration.quaternions, "arm", "hand",
+            demonstration.target, {"by": "hand"})
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "saved.csv")
+            elte_planner.save_demonstration(noted, path)
+            loaded = elte_planner.load_demonstration(path)
+            with self.assertRaisesRegex(ValueError, "none.csv: cannot be read"):
+                elte_planner.load_demonstration(os.path.join(folder, "none.csv"))
+        self.assertEqual(loaded.notes, {"by": "hand"})
+        np.testing.assert_allclose(loaded.poses, demonstration.poses, atol=2e-9)
+        np.testing.assert_array_equal(
+            demonstration.poses, np.hstack([demonstration.positions, demonstration.quaternions]))
+        target, goal = demonstration.target, demonstration.goal_in_target
+        turn = Rotation.from_quat(target[3:])
+        np.testing.assert_allclose(turn.apply(goal[:3]) + target[:3], demonstration.poses[-1, :3],
+                                   atol=1e-12)
+
+    def test_planner_names_are_those_that_plan_knows(self):
+        names = elte_planner.planner_names()
+        self.assertIn("elte", names)
+        for name in names:
+            plan = elte_planner.plan(name, arc(), arc(), 2, arc()[-1])[0]
+            self.assertEqual(plan.shape, arc().shape)
+        with self.assertRaisesRegex(ValueError, f"planner = none, must be one of: {', '.join(names)}"):
+            elte_planner.plan("none", arc(), arc(), 2, arc()[-1])
+
     def test_avoid_keeps_the_clearance_and_says_when_it_cannot(self):
         zeta = arc()
         goal = [elte_planner.equality(39, np.array([-1.1, 0.0]))]
@@ -73,7 +103,7 @@ class Module(unittest.TestCase):
         blocked = elte_planner.avoid(zeta, obstacles, 0.05, goal, zeta[:5])
         self.assertEqual(blocked.status, "not_found")
         self.assertEqual(blocked.y.size, 0)
-        with self.assertRaisesRegex(ValueError, "clearance is 0"):
+        with self.assertRaisesRegex(ValueError, "clearance = 0"):
             elte_planner.avoid(zeta, obstacles, 0.0)
 
     def test_endpoint_solver_agrees_with_the_general_one(self):
@@ -238,10 +268,10 @@ class Command(unittest.TestCase):
         self.refuse("radius is -1", DEMONSTRATION, "--radius", "-1")
         self.refuse("goal", DEMONSTRATION, "--end", "nan", "0", "0")
         self.refuse("nodes is 2", DEMONSTRATION, "--nodes", "2")
-        self.refuse("planner is 'x'", DEMONSTRATION, "--planner", "x")
+        self.refuse("planner = x", DEMONSTRATION, "--planner", "x")
         self.refuse("either")
         self.refuse("--clearance belongs", DEMONSTRATION, "--clearance", "0.1")
-        self.refuse("clearance is 0", DEMONSTRATION, "--sphere", *"1111", "--clearance", "0")
+        self.refuse("clearance = 0", DEMONSTRATION, "--sphere", *"1111", "--clearance", "0")
         self.refuse("executed is 1", DEMONSTRATION, "--sphere", *"1111", "--clearance", "1",
                     "--executed", "1")
         self.refuse("tolerance is -1", DEMONSTRATION, "--thin", "-1")
@@ -253,7 +283,7 @@ class Command(unittest.TestCase):
             ("null", "a problem must be an object"), ("{", "Expecting"), ("[1]", "must be an object"),
             ('{"zeta": [[0]]}', "lacks 'wE'"),
             ('{"zeta": [[0],[1]], "wE": 0, "wR": 0}', "at least 3"),
-            ('{"zeta": [[0],[1,2],[3]], "wE": 0, "wR": 0}', ""),
+            ('{"zeta": [[0],[1,2],[3]], "wE": 0, "wR": 0}', "sequence"),
             ('{"zeta": [[0],[1],[NaN]], "wE": 0, "wR": 0}', "not finite"),
             ('{"zeta": [[0],[1],[2]], "wE": -1, "wR": 0}', "w_elastic"),
             ('{"zeta": [[0],[1],[2]], "wE": 0, "wR": 0, "n_fixed": 1}', "n_fixed is 1"),

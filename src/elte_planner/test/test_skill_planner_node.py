@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The node from outside: one answer per named forecast, refusal of bad parameters."""
+"""The node from outside: one plan for each named forecast, refusal of bad parameters."""
 import os
 import subprocess
 import sys
@@ -45,57 +45,57 @@ class SkillPlannerNode(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("skill_planner_node_test")
-        cls.answers = []
-        rospy.Subscriber("skill/trajectory", SkillTrajectory, cls.answers.append, queue_size=100)
+        cls.plans = []
+        rospy.Subscriber("skill/trajectory", SkillTrajectory, cls.plans.append, queue_size=100)
         cls.forecasts = rospy.Publisher("target/forecast", TargetForecast, queue_size=100)
         cls.progress = rospy.Publisher("execution/progress", ExecutionProgress, queue_size=100)
         while (cls.forecasts.get_num_connections() == 0 or cls.progress.get_num_connections() == 0):
             rospy.rostime.wallsleep(0.02)
         rospy.rostime.wallsleep(0.5)
 
-    def answers_after(self, *messages):
-        """Publish in this order with time between, return the answers that came."""
-        del self.answers[:]
+    def plans_after(self, *messages):
+        """Publish in this order with time between, return the plans that came."""
+        del self.plans[:]
         for message in messages:
             publisher = self.forecasts if isinstance(message, TargetForecast) else self.progress
             publisher.publish(message)
             rospy.rostime.wallsleep(0.1)
         rospy.rostime.wallsleep(0.3)
-        return list(self.answers)
+        return list(self.plans)
 
-    def test_1_has_no_plan_before_a_target_was_seen(self):
-        (answer,) = self.answers_after(
+    def test_1_has_no_plan_before_there_is_a_target(self):
+        (plan,) = self.plans_after(
             forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
-        self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
-        self.assertEqual(answer.poses, [])
+        self.assertEqual(plan.status, SkillTrajectory.NO_PLAN)
+        self.assertEqual(plan.poses, [])
 
-    def test_2_answers_each_forecast_once_with_the_stamp_of_the_progress(self):
-        (answer,) = self.answers_after(forecast(2.0), progress(2.06, 2.0), progress(2.07, 2.0))
-        self.assertEqual(answer.status, SkillTrajectory.SOLVED, answer.message)
-        self.assertEqual(answer.header.stamp, rospy.Time.from_sec(2.06))
-        self.assertEqual(answer.header.frame_id, FRAME)
-        self.assertEqual(answer.forecast_stamp, rospy.Time.from_sec(2.0))
-        self.assertEqual(answer.planner, "elte")
-        self.assertEqual(len(answer.poses), 50)
-        self.assertEqual(len(answer.time_from_start), 50)
-        self.assertEqual(answer.frozen, 2)
-        self.assertLess(answer.kkt_residual, 1e-14)
-        end = answer.poses[-1].position
+    def test_2_plans_once_for_each_forecast_with_the_stamp_of_the_progress(self):
+        (plan,) = self.plans_after(forecast(2.0), progress(2.06, 2.0), progress(2.07, 2.0))
+        self.assertEqual(plan.status, SkillTrajectory.SOLVED, plan.message)
+        self.assertEqual(plan.header.stamp, rospy.Time.from_sec(2.06))
+        self.assertEqual(plan.header.frame_id, FRAME)
+        self.assertEqual(plan.forecast_stamp, rospy.Time.from_sec(2.0))
+        self.assertEqual(plan.planner, "elte")
+        self.assertEqual(len(plan.poses), 50)
+        self.assertEqual(len(plan.time_from_start), 50)
+        self.assertEqual(plan.frozen, 2)
+        self.assertLess(plan.kkt_residual, 1e-14)
+        end = plan.poses[-1].position
         miss = abs(end.x - 0.55) + abs(end.y) + abs(end.z - 0.5)
-        self.assertLessEqual(miss, answer.radius + 1e-9)
+        self.assertLessEqual(miss, plan.radius + 1e-9)
 
     def test_3_waits_for_a_forecast_that_comes_after_its_progress(self):
-        (early,) = self.answers_after(forecast(3.0, y=0.1), progress(3.06, 3.0))
-        (late,) = self.answers_after(progress(4.06, 4.0), forecast(4.0, y=0.1))
+        (early,) = self.plans_after(forecast(3.0, y=0.1), progress(3.06, 3.0))
+        (late,) = self.plans_after(progress(4.06, 4.0), forecast(4.0, y=0.1))
         self.assertEqual(early.poses, late.poses)
         self.assertEqual(late.header.stamp, rospy.Time.from_sec(4.06))
 
     def test_4_keeps_frozen_nodes_and_the_plan_of_a_lost_target(self):
-        (before,) = self.answers_after(forecast(5.0), progress(5.06, 5.0))
-        (moved,) = self.answers_after(forecast(6.0, y=0.2), progress(6.06, 6.0, frozen=20))
+        (before,) = self.plans_after(forecast(5.0), progress(5.06, 5.0))
+        (moved,) = self.plans_after(forecast(6.0, y=0.2), progress(6.06, 6.0, frozen=20))
         self.assertEqual(moved.poses[:20], before.poses[:20])
         self.assertNotEqual(moved.poses[20:], before.poses[20:])
-        (kept,) = self.answers_after(
+        (kept,) = self.plans_after(
             forecast(7.0, status=TargetForecast.LOST), progress(7.06, 7.0, frozen=20))
         self.assertEqual(kept.status, SkillTrajectory.KEPT)
         self.assertEqual(kept.poses, moved.poses)
@@ -103,27 +103,27 @@ class SkillPlannerNode(unittest.TestCase):
 
     def test_5_drops_messages_of_another_frame(self):
         self.assertEqual(
-            self.answers_after(forecast(8.0, frame="world"), progress(8.06, 8.0)), [])
+            self.plans_after(forecast(8.0, frame="world"), progress(8.06, 8.0)), [])
 
     def test_6_starts_anew_when_stamps_go_back(self):
-        (answer,) = self.answers_after(
+        (plan,) = self.plans_after(
             forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
-        self.assertEqual(answer.status, SkillTrajectory.NO_PLAN)
+        self.assertEqual(plan.status, SkillTrajectory.NO_PLAN)
 
-    def test_7_follows_the_demonstration_wanted_or_says_why_not(self):
+    def test_7_plans_with_the_demonstration_requested_or_says_why_not(self):
         first = rospy.get_param("~demonstration")
         with open(first, encoding="utf-8") as file:
             text = file.read()
         with tempfile.NamedTemporaryFile("w", suffix=".csv") as other:
             other.write(text.replace("target_pose: 0.8", "target_pose: 0.9"))
             other.flush()
-            before, moved, missing, kept, back = self.answers_after(
-                *(message for i, wanted in enumerate(
+            before, moved, missing, kept, back = self.plans_after(
+                *(message for i, requested in enumerate(
                     [("", 0), (other.name, 1), ("missing.csv", 2), (other.name, 1), ("", 0)])
-                  for message in (forecast(11.0 + i), progress(11.06 + i, 11.0 + i, 2, *wanted))))
-        self.assertEqual([answer.demonstration_switch for answer in (before, moved, missing, kept, back)],
+                  for message in (forecast(11.0 + i), progress(11.06 + i, 11.0 + i, 2, *requested))))
+        self.assertEqual([plan.demonstration_switch for plan in (before, moved, missing, kept, back)],
                          [0, 1, 2, 1, 0])
-        self.assertEqual([answer.demonstration for answer in (before, moved, missing, kept, back)],
+        self.assertEqual([plan.demonstration for plan in (before, moved, missing, kept, back)],
                          [first, other.name, other.name, other.name, first])
         self.assertAlmostEqual(before.poses[-1].position.x - moved.poses[-1].position.x, 0.1, 2)
         self.assertEqual((missing.status, missing.poses), (SkillTrajectory.REFUSED, []))
@@ -133,14 +133,14 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(back.poses, before.poses)
 
     def test_8_tells_late_solves_and_sends_their_plans(self):
-        answers, reports = [], {}
+        plans, reports = [], {}
 
         def remember(message):
             for status in message.status:
                 values = {value.key: value.value for value in status.values}
                 reports[status.name.split(":")[0].strip("/")] = int(values["late solves"])
 
-        rospy.Subscriber("hurried/skill/trajectory", SkillTrajectory, answers.append)
+        rospy.Subscriber("hurried/skill/trajectory", SkillTrajectory, plans.append)
         rospy.Subscriber("/diagnostics", DiagnosticArray, remember)
         forecasts = rospy.Publisher("hurried/target/forecast", TargetForecast, queue_size=9)
         requests = rospy.Publisher("hurried/execution/progress", ExecutionProgress, queue_size=9)
@@ -150,10 +150,10 @@ class SkillPlannerNode(unittest.TestCase):
                                         (requests, progress(stamp + 0.06, stamp))):
                 publisher.publish(messages)
                 rospy.rostime.wallsleep(0.05)
-            if reports.get("hurried/skill_planner", 0) > 0 and answers:
+            if reports.get("hurried/skill_planner", 0) > 0 and plans:
                 break
         self.assertGreater(reports.get("hurried/skill_planner", 0), 0, reports)
-        self.assertEqual(answers[-1].status, SkillTrajectory.SOLVED)
+        self.assertEqual(plans[-1].status, SkillTrajectory.SOLVED)
 
 
 class SkillPlannerParameters(unittest.TestCase):
@@ -181,18 +181,18 @@ class SkillPlannerParameters(unittest.TestCase):
         self.assertIn(expected, fatal[0])
 
     def test_bad_values_are_refused_by_name(self):
-        self.check("nodes is 2", nodes=2)
+        self.check("nodes = 2", nodes=2)
         self.check("nodes = 50.5", nodes=50.5)
-        self.check("w_elastic is -", w_elastic=-0.001)
-        self.check("w_bending is nan", w_bending=float("nan"))
-        self.check("planner is 'bezier'", planner="bezier")
+        self.check("w_elastic = -", w_elastic=-0.001)
+        self.check("w_bending = nan", w_bending=float("nan"))
+        self.check("planner = bezier", planner="bezier")
         self.check("framework = yes", framework="yes")
-        self.check("horizon_max is -1", horizon_max=-1)
-        self.check("max_step is -1", max_step=-1)
-        self.check("confidence is 1", confidence=1.0)
-        self.check("radius_min is -", radius_min=-0.01)
-        self.check("radius_max is 5", radius_max=5.0)
-        self.check("late_after is 0", late_after=0.0)
+        self.check("horizon_max = -1", horizon_max=-1)
+        self.check("max_step = -1", max_step=-1)
+        self.check("confidence = 1", confidence=1.0)
+        self.check("radius_min = -", radius_min=-0.01)
+        self.check("radius_max = 5", radius_max=5.0)
+        self.check("late_after = 0", late_after=0.0)
         self.check("frame is 'world'", frame="world")
         self.check("/nonexistent.csv: cannot be read", demonstration="/nonexistent.csv")
 

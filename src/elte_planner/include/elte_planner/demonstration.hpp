@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// One demonstration of a skill: timed poses of the hand in the planning frame, together with where
-// the target was while it was recorded.
+// One demonstration of a skill: timed poses of the hand in the planning frame, and the pose of the
+// target while they were recorded.
 //
-// CSV form, read by load_demonstration():
+// CSV form, of load_demonstration() and save_demonstration():
 //   # frame: j2s7s300_link_base                 frame of all poses
 //   # child_frame: j2s7s300_end_effector        the frame that was guided
 //   # target_pose: x y z qx qy qz qw            target in `frame`, m and unit quaternion
+//   # any other key: value                      a note
 //   time,x,y,z,qx,qy,qz,qw                      s from 0 and strictly rising, m, unit quaternion
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cstddef>
 #include <istream>
+#include <map>
+#include <ostream>
+#include <prf_core/se3.hpp>
 #include <string>
 #include <vector>
 
 namespace elte_planner {
 
-struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-
-  Eigen::Isometry3d transform() const;
-  bool is_finite() const { return position.allFinite() && orientation.coeffs().allFinite(); }
-};
-
-Pose pose_from(const Eigen::Isometry3d& transform);
+using prf_core::Pose;
 
 struct TimedPose {
   double time = 0.0;  // s from the start
@@ -36,18 +32,21 @@ struct TimedPose {
 // Always valid: the constructor throws std::invalid_argument naming sample, value and bound.
 class Demonstration {
  public:
-  static constexpr std::size_t kMinSamples = 3;
-  static constexpr double kQuaternionTolerance = 1e-3;  // on the norm; within it, renormalised
-  static constexpr double kMinLength = 1e-6;            // m of path
-  static constexpr double kMaxCoordinate = 1e6;         // m
+  static constexpr std::size_t kMinSamples = 3;  // a second difference needs as many
+  static constexpr double kMinLength = 1e-6;     // m of path
+  static constexpr double kMaxCoordinate = 1e6;  // m
 
+  using Notes = std::map<std::string, std::string>;
+
+  // Quaternions within prf_core::kUnitQuaternionTolerance of the unit are normalised.
   Demonstration(std::vector<TimedPose> samples, std::string frame, std::string child_frame,
-                const Pose& target);
+                const Pose& target, Notes notes = {});
 
   const std::vector<TimedPose>& samples() const { return samples_; }
   const std::string& frame() const { return frame_; }
   const std::string& child_frame() const { return child_frame_; }
   const Pose& target() const { return target_; }
+  const Notes& notes() const { return notes_; }
 
   // Final pose of the hand in the target's frame.
   Pose goal_in_target() const;
@@ -71,15 +70,21 @@ class Demonstration {
  private:
   template <typename IsEnough>
   Demonstration subdivided(IsEnough&& is_enough) const;
+  Demonstration with_samples(std::vector<TimedPose> samples) const;
 
   std::vector<TimedPose> samples_;
   std::string frame_;
   std::string child_frame_;
   Pose target_;
+  Notes notes_;
 };
 
-// Throws std::invalid_argument with file, line, column, value and bound.
+// Throw std::invalid_argument with file, line, column, value and bound.
 [[nodiscard]] Demonstration load_demonstration(const std::string& path);
 [[nodiscard]] Demonstration read_demonstration(std::istream& in, const std::string& name);
+
+// Times in microseconds, poses to nine decimals. Throws std::invalid_argument when the file cannot
+// be written or would not be read back with the same notes.
+void save_demonstration(const Demonstration& demonstration, const std::string& path);
 
 }  // namespace elte_planner

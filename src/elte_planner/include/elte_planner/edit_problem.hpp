@@ -50,7 +50,7 @@ struct EditProblem {
   void validate() const;  // throws std::invalid_argument
 };
 
-struct EditSettings {
+struct EditParams {
   double tolerance = 1e-13;    // of feasibility, relative to the extent of the problem
   int max_iterations = 20000;  // changes of the active set
 };
@@ -91,13 +91,13 @@ class EditSolver {
   EditSolver& operator=(EditSolver&&) noexcept;
 
   // Throws std::invalid_argument for an invalid problem.
-  void solve(const EditProblem& problem, const EditSettings& settings, EditSolution& solution);
+  void solve(const EditProblem& problem, const EditParams& params, EditSolution& solution);
 
  private:
   class Workspace;
   std::unique_ptr<Workspace> workspace_;
 };
 
-[[nodiscard]] EditSolution solve(const EditProblem& problem, const EditSettings& settings = {});
+[[nodiscard]] EditSolution solve(const EditProblem& problem, const EditParams& params = {});
 
 }  // namespace elte_planner

@@ -30,7 +30,7 @@ struct AvoidanceProblem {
   void validate() const;  // throws std::invalid_argument
 };
 
-struct AvoidanceSettings {
+struct AvoidanceParams {
   int max_passes = 200;     // convex problems per choice of sides
   int max_choices = 64;     // of sides
   double tolerance = 1e-9;  // of rest, relative to the extent of the demonstration
@@ -56,6 +56,6 @@ struct AvoidanceSolution {
 
 // Throws std::invalid_argument for an invalid problem.
 [[nodiscard]] AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
-                                                const AvoidanceSettings& settings = {});
+                                                const AvoidanceParams& params = {});
 
 }  // namespace elte_planner

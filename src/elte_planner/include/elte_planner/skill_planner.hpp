@@ -59,9 +59,12 @@ class SkillPlanner {
 // For implementations: throws std::invalid_argument unless the request fits the demonstration.
 void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonstration);
 
-// For implementations: the answer when every node is frozen. Solved when the last node is within
+// For implementations: the result when every node is frozen. Solved when the last node is within
 // the ball, else relaxed by what is missing.
 [[nodiscard]] PlanResult all_frozen(const PlanRequest& request);
+
+// The names that make_skill_planner() knows.
+[[nodiscard]] std::vector<std::string> planner_names();
 
 // max_step: greatest l1 distance of consecutive nodes that are not frozen, m, above 0; only elte
 // and lte can keep one. Throws std::invalid_argument, listing the known names when `name` is none

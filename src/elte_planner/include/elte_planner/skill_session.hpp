@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The planned skill over one execution: turns what is forecast of the target and how far the
-// execution has come into the next plan of poses. Stamps and durations in seconds; all poses in the
-// planning frame.
+// The plan of one skill during one execution. plan() takes the forecast of the target and the
+// progress of the execution, and bends the part of the skill that is not executed yet so that the
+// hand reaches its demonstrated pose relative to the target.
+//
+// Node k of the plan is reached at t_k. Each of the last nodes (those within approach_length of the
+// end) has a goal: its demonstrated pose in the target's frame, placed on the target as predicted
+// for t_k. Its position may differ from the goal by an l1 ball of radius
+//   r_k = clamp(r(P), radius_min, radius_max) + 0.1 |distance to the end|
+// where r(P) holds the probability `confidence` of the predicted position (confidence_radius.hpp).
+// All poses are in the planning frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,49 +40,53 @@ struct Forecast {
   std::vector<TargetPrediction> predictions;  // horizons strictly rising
 };
 
-// Which demonstration an execution is to follow, see FollowedSkill.
-struct WantedSkill {
-  std::string demonstration;  // a path, absolute or beside the first one; empty: the first one
-  std::uint32_t demonstration_switch = 0;
+// The demonstration that an execution asks for, see CurrentSkill.
+struct DemonstrationRequest {
+  std::string file;                        // absolute or beside the first one; empty: the first one
+  std::uint32_t demonstration_switch = 0;  // counts the requests; a new number reads the file anew
 
-  bool operator==(const WantedSkill& other) const {
-    return demonstration == other.demonstration &&
-           demonstration_switch == other.demonstration_switch;
+  bool operator==(const DemonstrationRequest& other) const {
+    return file == other.file && demonstration_switch == other.demonstration_switch;
   }
 };
 
 struct Progress {
-  std::int64_t stamp = 0;           // ns
+  std::int64_t stamp = 0;  // ns
   std::int64_t forecast_stamp = 0;  // ns, of the forecast in force; 0 for none
-  Eigen::Index frozen = 0;          // leading nodes that must not move
-  double time_to_go = 0.0;          // s from the cursor to the last node
-  WantedSkill wanted = {};
+  Eigen::Index frozen = 0;            // leading nodes that must not move
+  double time_to_go = 0.0;  // s, from the cursor to the last node
+  DemonstrationRequest demonstration = {};
+};
+
+enum class Adaptation {
+  kContinuous,  // to every forecast
+  kOnce,        // to the first forecast of a tracked target; later calls repeat that plan
 };
 
 struct SessionParams {
-  std::string planner;    // see make_skill_planner
-  bool framework = true;  // false: adapt once, to the first tracked forecast
-  int nodes = 0;          // of the plan, 3 .. 10000
+  std::string planner;  // one of planner_names()
+  Adaptation adaptation = Adaptation::kContinuous;
+  int nodes = 0;  // of the plan, 3 .. 10000
   ElteWeights weights;
   double max_step = 0.0;         // m, greatest l1 distance of consecutive nodes; 0: no bound
   double horizon_max = 0.0;      // s, farthest look ahead, within [0, 60]
   double confidence = 0.0;       // probability of the end point's l1 ball, within (0, 1)
   double radius_min = 0.0;       // m
   double radius_max = 0.0;       // m, at least radius_min
-  double approach_length = 0.0;  // m, of the skill's end where every node has a ball; 0: the last
+  double approach_length = 0.0;  // m, of the skill's end where every node has a goal; 0: the last
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
 };
 
-enum class AnswerStatus { kNoPlan, kSolved, kRelaxed, kKept };
+enum class SkillStatus { kNoPlan, kSolved, kRelaxed, kKept };
 
-struct SkillAnswer {
-  AnswerStatus status = AnswerStatus::kNoPlan;
-  std::string message;
+struct SkillResult {
+  SkillStatus status = SkillStatus::kNoPlan;
+  std::string message;  // one line when not solved
   Eigen::Index frozen = 0;
   double kkt_residual = 0.0;  // m
-  double radius = 0.0;        // m
-  double slack = 0.0;         // m
+  double radius = 0.0;        // m, of the end point's ball
+  double slack = 0.0;         // m, added to it when relaxed
   std::vector<TimedPose> poses;
 };
 
@@ -90,8 +101,10 @@ class SkillSession {
   // Throws std::invalid_argument.
   SkillSession(const SessionParams& params, const Demonstration& demonstration);
 
-  // forecast: the one that the progress names; null when it was lost on its way.
-  [[nodiscard]] SkillAnswer answer(const Progress& progress, const Forecast* forecast);
+  // forecast: the one that the progress names; null when it was lost on its way. A forecast that is
+  // lost or invalid keeps the last plan.
+  [[nodiscard]] SkillResult plan(const Progress& progress,
+                                 const Forecast* forecast);
 
   void reset();  // a new run: forgets the plan
 
@@ -100,15 +113,14 @@ class SkillSession {
   std::string planner_name() const { return planner_->name(); }
 
  private:
-  // What the last nodes shall be for the target as it is forecast at the time of each.
   struct NodeGoal {
     Pose pose;
     double radius;  // of the l1 ball, m
   };
 
   std::optional<std::vector<NodeGoal>> goals(const Forecast& forecast, double ahead) const;
-  SkillAnswer adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
-  SkillAnswer keep(const std::string& reason, Eigen::Index frozen) const;
+  SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
+  SkillResult keep(const std::string& reason, Eigen::Index frozen) const;
 
   SessionParams params_;
   Demonstration demonstration_;  // resampled to the plan's nodes
@@ -116,7 +128,7 @@ class SkillSession {
   std::vector<TimedPose> approach_;  // the last nodes, in the target's frame
   std::vector<Eigen::Quaterniond> demonstrated_orientations_;
   std::unique_ptr<SkillPlanner> planner_;
-  std::optional<SkillAnswer> plan_;  // the last feasible one
+  std::optional<SkillResult> plan_;  // the last feasible one
 };
 
 }  // namespace elte_planner

@@ -14,7 +14,7 @@ using Samples = std::vector<TimedPose>;
 
 Samples moved(const Demonstration& demonstration, const Eigen::Isometry3d& motion) {
   Samples samples = demonstration.samples();
-  for (TimedPose& sample : samples) sample.pose = pose_from(motion * sample.pose.transform());
+  for (TimedPose& sample : samples) sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
   return samples;
 }
 
@@ -99,7 +99,7 @@ Demonstration combined(const std::vector<Demonstration>& demonstrations, std::si
                                   "' as the first");
     }
     const Eigen::Isometry3d motion =
-        first.target().transform() * demonstration.target().transform().inverse();
+        first.target().isometry() * demonstration.target().isometry().inverse();
     Samples samples = moved(demonstration.resampled_by_arc_length(nodes), motion);
     if (reference.empty()) reference = samples;
     if (alignment == Alignment::kDynamicTimeWarping) samples = warped(reference, samples);

@@ -24,7 +24,7 @@ std::string text(const Value& value) {
   return out.str();
 }
 
-Pose checked(const Pose& pose, const std::string& where) {
+Pose normalised(const Pose& pose, const std::string& where) {
   if (!pose.is_finite()) refuse_demonstration(where + " has a coordinate that is not finite");
   const double farthest = pose.position.cwiseAbs().maxCoeff();
   if (farthest > Demonstration::kMaxCoordinate) {
@@ -32,9 +32,9 @@ Pose checked(const Pose& pose, const std::string& where) {
                          text(Demonstration::kMaxCoordinate) + " m");
   }
   const double norm = pose.orientation.norm();
-  if (!(std::abs(norm - 1.0) <= Demonstration::kQuaternionTolerance)) {
+  if (!(std::abs(norm - 1.0) <= prf_core::kUnitQuaternionTolerance)) {
     refuse_demonstration(where + " has a quaternion of norm " + text(norm) + ", must be within " +
-                         text(Demonstration::kQuaternionTolerance) + " of 1");
+                         text(prf_core::kUnitQuaternionTolerance) + " of 1");
   }
   return {pose.position, pose.orientation.normalized()};
 }
@@ -89,20 +89,13 @@ Gap gap_between(std::size_t first, std::size_t last, const std::vector<TimedPose
 
 }  // namespace
 
-Eigen::Isometry3d Pose::transform() const {
-  return Eigen::Translation3d(position) * Eigen::Isometry3d(orientation);
-}
-
-Pose pose_from(const Eigen::Isometry3d& transform) {
-  return {transform.translation(), Eigen::Quaterniond(transform.linear()).normalized()};
-}
-
 Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
-                             std::string child_frame, const Pose& target)
+                             std::string child_frame, const Pose& target, Notes notes)
     : samples_(std::move(samples)),
       frame_(std::move(frame)),
       child_frame_(std::move(child_frame)),
-      target_(checked(target, "target_pose")) {
+      target_(normalised(target, "target_pose")),
+      notes_(std::move(notes)) {
   if (frame_.empty()) refuse_demonstration("frame is empty, must name the frame of the poses");
   if (child_frame_.empty())
     refuse_demonstration("child_frame is empty, must name the guided frame");
@@ -121,7 +114,7 @@ Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
       refuse_demonstration(where + " has time " + text(samples_[i].time) + " s, must be above " +
                            text(samples_[i - 1].time) + " s of the sample before");
     }
-    samples_[i].pose = checked(samples_[i].pose, where);
+    samples_[i].pose = normalised(samples_[i].pose, where);
   }
   if (!(length() >= kMinLength)) {
     refuse_demonstration("has a path " + text(length()) +
@@ -131,7 +124,11 @@ Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
 }
 
 Pose Demonstration::goal_in_target() const {
-  return pose_from(target_.transform().inverse() * samples_.back().pose.transform());
+  return prf_core::pose_from(target_.isometry().inverse() * samples_.back().pose.isometry());
+}
+
+Demonstration Demonstration::with_samples(std::vector<TimedPose> samples) const {
+  return Demonstration(std::move(samples), frame_, child_frame_, target_, notes_);
 }
 
 Eigen::MatrixXd Demonstration::positions() const {
@@ -155,14 +152,14 @@ Demonstration Demonstration::resampled_by_arc_length(std::size_t nodes) const {
   result.reserve(nodes);
   result.push_back(samples_.front());
   for (std::size_t k = 1; k + 1 < nodes; ++k) {
-    const double wanted = arc.back() * static_cast<double>(k) / static_cast<double>(nodes - 1);
-    const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, wanted);
+    const double length = arc.back() * static_cast<double>(k) / static_cast<double>(nodes - 1);
+    const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, length);
     const auto i = static_cast<std::size_t>(after - arc.begin());
-    const double fraction = std::clamp((wanted - arc[i - 1]) / (arc[i] - arc[i - 1]), 0.0, 1.0);
+    const double fraction = std::clamp((length - arc[i - 1]) / (arc[i] - arc[i - 1]), 0.0, 1.0);
     result.push_back(interpolated(samples_[i - 1], samples_[i], fraction));
   }
   result.push_back(samples_.back());
-  return Demonstration(std::move(result), frame_, child_frame_, target_);
+  return with_samples(std::move(result));
 }
 
 // Takes the sample farthest from the lines between those taken until
@@ -184,7 +181,7 @@ Demonstration Demonstration::subdivided(IsEnough&& is_enough) const {
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (taken[i]) result.push_back(samples_[i]);
   }
-  return Demonstration(std::move(result), frame_, child_frame_, target_);
+  return with_samples(std::move(result));
 }
 
 Demonstration Demonstration::resampled_by_douglas_peucker(std::size_t nodes) const {

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -47,12 +47,15 @@ class Reader {
       take(trimmed(line));
     }
     if (in_.bad()) refuse_file("cannot be read to its end");
-    if (!header_seen_) refuse_file("has no header line '" + std::string(kHeader) + "'");
+    if (!has_header_) refuse_file("has no header line '" + std::string(kHeader) + "'");
     for (const char* key : {"frame", "child_frame", "target_pose"}) {
-      if (metadata_.count(key) == 0) refuse_file("has no line '# " + std::string(key) + ": ...'");
+      if (notes_.count(key) == 0) refuse_file("has no line '# " + std::string(key) + ": ...'");
     }
+    const std::string frame = notes_.extract("frame").mapped();
+    const std::string child_frame = notes_.extract("child_frame").mapped();
+    notes_.erase("target_pose");
     try {
-      return Demonstration(samples_, metadata_["frame"], metadata_["child_frame"], target_);
+      return Demonstration(samples_, frame, child_frame, target_, notes_);
     } catch (const std::invalid_argument& error) {
       refuse_file(error.what());
     }
@@ -63,10 +66,10 @@ class Reader {
     if (line.empty()) return;
     if (line.front() == '#') {
       take_metadata(line.substr(1));
-    } else if (header_seen_) {
+    } else if (has_header_) {
       take_row(line);
     } else if (line == kHeader) {
-      header_seen_ = true;
+      has_header_ = true;
     } else {
       refuse("header is '" + shown(line) + "', must be '" + std::string(kHeader) + "'");
     }
@@ -77,7 +80,7 @@ class Reader {
     if (colon == std::string_view::npos) return;
     const std::string key(trimmed(line.substr(0, colon)));
     const std::string_view value = trimmed(line.substr(colon + 1));
-    if (!metadata_.emplace(key, value).second) refuse("key '" + shown(key) + "' is given twice");
+    if (!notes_.emplace(key, value).second) refuse("key '" + shown(key) + "' is given twice");
     if (key == "target_pose") target_ = target_pose(value);
   }
 
@@ -121,9 +124,9 @@ class Reader {
   Pose pose(const double* xyz_qxyzw) const {
     const Eigen::Quaterniond orientation(xyz_qxyzw[6], xyz_qxyzw[3], xyz_qxyzw[4], xyz_qxyzw[5]);
     const double norm = orientation.norm();
-    if (!(std::abs(norm - 1.0) <= Demonstration::kQuaternionTolerance)) {
+    if (!(std::abs(norm - 1.0) <= prf_core::kUnitQuaternionTolerance)) {
       refuse("columns 'qx' to 'qw' have norm " + std::to_string(norm) + ", must be within " +
-             std::to_string(Demonstration::kQuaternionTolerance) + " of 1");
+             std::to_string(prf_core::kUnitQuaternionTolerance) + " of 1");
     }
     return {{xyz_qxyzw[0], xyz_qxyzw[1], xyz_qxyzw[2]}, orientation};
   }
@@ -157,11 +160,33 @@ class Reader {
   std::istream& in_;
   std::string name_;
   std::size_t line_number_ = 0;
-  bool header_seen_ = false;
-  std::map<std::string, std::string> metadata_;
+  bool has_header_ = false;
+  Demonstration::Notes notes_;  // every `# key: value` line
   Pose target_;
   std::vector<TimedPose> samples_;
 };
+
+void write(const Demonstration& demonstration, std::ostream& out) {
+  const auto numbers = [&out](const Pose& pose, const char* separator) {
+    const Eigen::Vector3d& p = pose.position;
+    const Eigen::Quaterniond& q = pose.orientation;
+    out << p.x();
+    for (const double number : {p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
+      out << separator << number;
+    }
+    out << '\n';
+  };
+  out << std::fixed << std::setprecision(9);
+  for (const auto& [key, value] : demonstration.notes()) out << "# " << key << ": " << value << '\n';
+  out << "# frame: " << demonstration.frame() << '\n'
+      << "# child_frame: " << demonstration.child_frame() << "\n# target_pose: ";
+  numbers(demonstration.target(), " ");
+  out << kHeader << '\n';
+  for (const TimedPose& sample : demonstration.samples()) {
+    out << std::setprecision(6) << sample.time << ',' << std::setprecision(9);
+    numbers(sample.pose, ",");
+  }
+}
 
 }  // namespace
 
@@ -173,6 +198,18 @@ Demonstration load_demonstration(const std::string& path) {
 
 Demonstration read_demonstration(std::istream& in, const std::string& name) {
   return Reader(in, name).read();
+}
+
+void save_demonstration(const Demonstration& demonstration, const std::string& path) {
+  std::stringstream text;
+  write(demonstration, text);
+  if (read_demonstration(text, path).notes() != demonstration.notes()) {
+    throw std::invalid_argument(path + ": notes cannot hold line breaks, blanks at their ends or a ':' "
+                                       "in the key");
+  }
+  std::ofstream file(path);
+  file << text.str();
+  if (!file.flush()) throw std::invalid_argument(path + ": cannot be written");
 }
 
 }  // namespace elte_planner

@@ -3,23 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <prf_core/require.hpp>
 
 namespace elte_planner {
 
 void DmpParams::validate() const {
-  const auto check = [](const char* name, double value, double low, double high) {
-    if (!(value >= low && value <= high)) {
-      throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                  ", must be within [" + std::to_string(low) + ", " +
-                                  std::to_string(high) + "]");
-    }
-  };
-  check("basis_functions", basis_functions, 2, 1000);
-  check("stiffness", stiffness, 1e-3, 1e5);
-  check("damping", damping, 1e-3, 1e4);
-  check("phase_decay", phase_decay, 0.1, 20.0);
-  check("activation", activation, 1e-6, 0.99);
+  using prf_core::require_between;
+  require_between("basis_functions", basis_functions, 2, 1000);
+  require_between("stiffness", stiffness, 1e-3, 1e5);
+  require_between("damping", damping, 1e-3, 1e4);
+  require_between("phase_decay", phase_decay, 0.1, 20.0);
+  require_between("activation", activation, 1e-6, 0.99);
 }
 
 DmpSkillPlanner::DmpSkillPlanner(const Eigen::MatrixXd& demonstration, const DmpParams& params)

@@ -73,10 +73,10 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) c
   for (const NodeBall& ball : request.approach) {
     problem.constraints.push_back(PointConstraint::ball(ball.node, ball.centre, ball.radius));
   }
-  EditSettings settings;
-  settings.max_iterations = kMaxIterations;
+  EditParams params;
+  params.max_iterations = kMaxIterations;
   EditSolution solution;
-  EditSolver().solve(problem, settings, solution);
+  EditSolver().solve(problem, params, solution);
 
   PlanResult result;
   result.message = solution.message;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 #include "elte_planner/dmp_skill_planner.hpp"
@@ -10,6 +11,48 @@
 #include "elte_planner/elte_skill_planner.hpp"
 
 namespace elte_planner {
+namespace {
+
+using Maker = std::unique_ptr<SkillPlanner> (*)(const Eigen::MatrixXd& demonstration,
+                                                const ElteWeights& weights, double max_step);
+
+void require_no_step_bound(const char* planner, double max_step) {
+  prf_core::require(std::isinf(max_step), "max_step", max_step,
+                    std::string("without bound: planner ") + planner + " keeps none");
+}
+
+struct Factory {
+  const char* name;
+  Maker make;
+};
+
+constexpr Factory kFactories[] = {
+    {"elte",
+     [](const Eigen::MatrixXd& zeta, const ElteWeights& weights,
+        double max_step) -> std::unique_ptr<SkillPlanner> {
+       return std::make_unique<ElteSkillPlanner>(zeta, weights, "elte", max_step);
+     }},
+    {"lte",
+     [](const Eigen::MatrixXd& zeta, const ElteWeights&,
+        double max_step) -> std::unique_ptr<SkillPlanner> {
+       const ElteWeights shape_only{0.0, 0.0, Laplacian::kRowNormalised};
+       return std::make_unique<ElteSkillPlanner>(zeta, shape_only, "lte", max_step);
+     }},
+    {"elastic_map",
+     [](const Eigen::MatrixXd& zeta, const ElteWeights& weights,
+        double max_step) -> std::unique_ptr<SkillPlanner> {
+       require_no_step_bound("elastic_map", max_step);
+       return std::make_unique<ElasticMapSkillPlanner>(zeta, weights);
+     }},
+    {"dmp",
+     [](const Eigen::MatrixXd& zeta, const ElteWeights&,
+        double max_step) -> std::unique_ptr<SkillPlanner> {
+       require_no_step_bound("dmp", max_step);
+       return std::make_unique<DmpSkillPlanner>(zeta);
+     }},
+};
+
+}  // namespace
 
 void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonstration) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
@@ -54,26 +97,22 @@ PlanResult all_frozen(const PlanRequest& request) {
   return result;
 }
 
+std::vector<std::string> planner_names() {
+  std::vector<std::string> names;
+  for (const Factory& factory : kFactories) names.emplace_back(factory.name);
+  return names;
+}
+
 std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
                                                  const Eigen::MatrixXd& demonstration,
                                                  const ElteWeights& weights, double max_step) {
-  if (name == "elte") {
-    return std::make_unique<ElteSkillPlanner>(demonstration, weights, name, max_step);
+  std::string known;
+  for (const Factory& factory : kFactories) {
+    if (name == factory.name) return factory.make(demonstration, weights, max_step);
+    known += (known.empty() ? "" : ", ") + std::string(factory.name);
   }
-  if (name == "lte") {
-    const ElteWeights shape_only{0.0, 0.0, Laplacian::kRowNormalised};
-    return std::make_unique<ElteSkillPlanner>(demonstration, shape_only, name, max_step);
-  }
-  if ((name == "elastic_map" || name == "dmp") && !std::isinf(max_step)) {
-    throw std::invalid_argument("max_step is " + std::to_string(max_step) + " m, but planner '" +
-                                name + "' keeps no bound on steps");
-  }
-  if (name == "elastic_map") {
-    return std::make_unique<ElasticMapSkillPlanner>(demonstration, weights);
-  }
-  if (name == "dmp") return std::make_unique<DmpSkillPlanner>(demonstration);
-  throw std::invalid_argument("planner is '" + name +
-                              "', must be one of: elte, lte, elastic_map, dmp");
+  prf_core::require(false, "planner", name, "one of: " + known);
+  return nullptr;
 }
 
 }  // namespace elte_planner

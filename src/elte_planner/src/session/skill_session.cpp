@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 #include "elte_planner/confidence_radius.hpp"
@@ -12,24 +13,18 @@
 namespace elte_planner {
 namespace {
 
+using prf_core::pose_from;
+
 constexpr double kNanosecond = 1e-9;
-// The approach narrows towards the goal: the balls' radius falls by so much for each metre.
+// Growth of the goals' radius with the distance from the end, m/m, chosen by hand: 2 cm at 0.2 m.
 constexpr double kNarrowing = 0.1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void check_range(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                ", must be within [" + std::to_string(low) + ", " +
-                                std::to_string(high) + "]");
-  }
-}
 
 bool is_usable(const TargetPrediction& prediction) {
   return std::isfinite(prediction.horizon) && prediction.target.is_finite() &&
          prediction.covariance.allFinite() && prediction.velocity.allFinite() &&
          std::abs(prediction.target.orientation.norm() - 1.0) <=
-             Demonstration::kQuaternionTolerance;
+             prf_core::kUnitQuaternionTolerance;
 }
 
 // Position at the fraction s of the time between two predictions, as the cubic of both velocities.
@@ -55,26 +50,25 @@ std::vector<TimedPose> approach(const Demonstration& demonstration, double lengt
   const Eigen::Vector3d end = nodes.back().pose.position;
   auto first = nodes.end() - 1;
   while (first != nodes.begin() && ((first - 1)->pose.position - end).norm() <= length) --first;
-  const Eigen::Isometry3d to_target = demonstration.target().transform().inverse();
+  const Eigen::Isometry3d to_target = demonstration.target().isometry().inverse();
   std::vector<TimedPose> result(first, nodes.end());
-  for (TimedPose& node : result) node.pose = pose_from(to_target * node.pose.transform());
+  for (TimedPose& node : result) node.pose = pose_from(to_target * node.pose.isometry());
   return result;
 }
 
 }  // namespace
 
 void SessionParams::validate() const {
-  check_range("nodes", nodes, 3, 10000);
+  using prf_core::require_between;
+  require_between("nodes", nodes, 3, 10000);
   weights.validate();
-  check_range("max_step", max_step, 0.0, 1.0);
-  check_range("horizon_max", horizon_max, 0.0, 60.0);
-  if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw std::invalid_argument("confidence is " + std::to_string(confidence) +
-                                ", must be within (0, 1)");
-  }
-  check_range("radius_min", radius_min, 0.0, 1.0);
-  check_range("radius_max", radius_max, radius_min, 1.0);
-  check_range("approach_length", approach_length, 0.0, 10.0);
+  require_between("max_step", max_step, 0.0, 1.0, "m");
+  require_between("horizon_max", horizon_max, 0.0, 60.0, "s");
+  prf_core::require(confidence > 0.0 && confidence < 1.0, "confidence", confidence,
+                    "within (0, 1)");
+  require_between("radius_min", radius_min, 0.0, 1.0, "m");
+  require_between("radius_max", radius_max, radius_min, 1.0, "m");
+  require_between("approach_length", approach_length, 0.0, 10.0, "m");
 }
 
 std::optional<TargetPrediction> predicted_target(const Forecast& forecast, double horizon) {
@@ -109,11 +103,12 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
 
 void SkillSession::reset() { plan_.reset(); }
 
-SkillAnswer SkillSession::answer(const Progress& progress, const Forecast* forecast) {
+SkillResult SkillSession::plan(const Progress& progress, const Forecast* forecast) {
   const Eigen::Index frozen =
       std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes));
-  if (!params_.framework && plan_) {
-    SkillAnswer repeated = *plan_;
+  const bool once = params_.adaptation == Adaptation::kOnce;
+  if (once && plan_) {
+    SkillResult repeated = *plan_;
     repeated.frozen = frozen;
     return repeated;
   }
@@ -124,13 +119,13 @@ SkillAnswer SkillSession::answer(const Progress& progress, const Forecast* forec
     case TargetStatus::kLost:
       return keep("the target is lost", frozen);
     case TargetStatus::kCoasting:
-      if (!params_.framework) return keep("the target is not tracked yet", frozen);
+      if (once) return keep("the target is not tracked yet", frozen);
       break;
     case TargetStatus::kTracking:
       break;
   }
   const double age = kNanosecond * static_cast<double>(progress.stamp - forecast->stamp);
-  const double ahead = params_.framework ? progress.time_to_go + age : 0.0;
+  const double ahead = once ? 0.0 : progress.time_to_go + age;
   if (!std::isfinite(ahead)) return keep("time_to_go is not finite", frozen);
   try {
     const auto goals = this->goals(*forecast, ahead);
@@ -146,36 +141,37 @@ std::optional<std::vector<SkillSession::NodeGoal>> SkillSession::goals(const For
                                                                        double ahead) const {
   std::vector<NodeGoal> result;
   const TimedPose& end = approach_.back();
+  const bool once = params_.adaptation == Adaptation::kOnce;
   for (const TimedPose& node : approach_) {
-    const double horizon = params_.framework ? ahead - (end.time - node.time) : 0.0;
+    const double horizon = once ? 0.0 : ahead - (end.time - node.time);
     const auto target = predicted_target(forecast, std::clamp(horizon, 0.0, params_.horizon_max));
     if (!target) return std::nullopt;
     const double radius = std::clamp(confidence_radius(target->covariance, params_.confidence),
                                      params_.radius_min, params_.radius_max);
     const double distance = (node.pose.position - end.pose.position).norm();
-    result.push_back({pose_from(target->target.transform() * node.pose.transform()),
+    result.push_back({pose_from(target->target.isometry() * node.pose.isometry()),
                       radius + kNarrowing * distance});
   }
   return result;
 }
 
-SkillAnswer SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals) {
-  SkillAnswer answer;
-  answer.poses = plan_ ? plan_->poses : demonstration_.samples();
-  answer.frozen = frozen;
-  answer.radius = goals.back().radius;
+SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals) {
+  SkillResult result;
+  result.poses = plan_ ? plan_->poses : demonstration_.samples();
+  result.frozen = frozen;
+  result.radius = goals.back().radius;
 
   PlanRequest request;
   request.previous.resize(params_.nodes, 3);
   for (Eigen::Index k = 0; k < params_.nodes; ++k) {
-    request.previous.row(k) = answer.poses[static_cast<std::size_t>(k)].pose.position.transpose();
+    request.previous.row(k) = result.poses[static_cast<std::size_t>(k)].pose.position.transpose();
   }
   request.frozen = frozen;
   request.goal = goals.back().pose.position;
-  request.radius = answer.radius;
+  request.radius = result.radius;
   std::vector<Eigen::Quaterniond> orientation_goals;
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    const auto node = static_cast<Eigen::Index>(answer.poses.size() - goals.size() + i);
+    const auto node = static_cast<Eigen::Index>(result.poses.size() - goals.size() + i);
     orientation_goals.push_back(goals[i].pose.orientation);
     if (node >= frozen && i + 1 < goals.size()) {
       request.approach.push_back({node, goals[i].pose.position, goals[i].radius});
@@ -185,23 +181,23 @@ SkillAnswer SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
   if (plan.status == PlanStatus::kFailed) return keep(plan.message, frozen);
 
   const std::vector<Eigen::Quaterniond> blended = blend_orientations(
-      demonstrated_orientations_, orientations(answer.poses), frozen, orientation_goals);
-  for (std::size_t k = 0; k < answer.poses.size(); ++k) {
-    answer.poses[k].pose = {plan.positions.row(static_cast<Eigen::Index>(k)).transpose(),
+      demonstrated_orientations_, orientations(result.poses), frozen, orientation_goals);
+  for (std::size_t k = 0; k < result.poses.size(); ++k) {
+    result.poses[k].pose = {plan.positions.row(static_cast<Eigen::Index>(k)).transpose(),
                             blended[k]};
   }
-  answer.status =
-      plan.status == PlanStatus::kSolved ? AnswerStatus::kSolved : AnswerStatus::kRelaxed;
-  answer.message = plan.message;
-  answer.kkt_residual = plan.kkt_residual;
-  answer.slack = plan.slack;
-  plan_ = answer;
-  return answer;
+  result.status =
+      plan.status == PlanStatus::kSolved ? SkillStatus::kSolved : SkillStatus::kRelaxed;
+  result.message = plan.message;
+  result.kkt_residual = plan.kkt_residual;
+  result.slack = plan.slack;
+  plan_ = result;
+  return result;
 }
 
-SkillAnswer SkillSession::keep(const std::string& reason, Eigen::Index frozen) const {
-  SkillAnswer kept = plan_.value_or(SkillAnswer{});
-  kept.status = plan_ ? AnswerStatus::kKept : AnswerStatus::kNoPlan;
+SkillResult SkillSession::keep(const std::string& reason, Eigen::Index frozen) const {
+  SkillResult kept = plan_.value_or(SkillResult{});
+  kept.status = plan_ ? SkillStatus::kKept : SkillStatus::kNoPlan;
   kept.message = reason;
   kept.frozen = plan_ ? frozen : 0;
   return kept;

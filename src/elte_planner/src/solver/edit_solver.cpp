@@ -15,11 +15,11 @@ constexpr double kProximalWeights[] = {1e-3, 1e-5, 1e-1, 1e-7};
 
 }  // namespace
 
-void EditSolver::Workspace::solve(const EditProblem& problem, const EditSettings& settings,
+void EditSolver::Workspace::solve(const EditProblem& problem, const EditParams& params,
                                   EditSolution& solution) {
   problem.validate();
   problem_ = &problem;
-  settings_ = &settings;
+  params_ = &params;
   solution.message.clear();
   solution.active.clear();
   solution.iterations = 0;
@@ -46,19 +46,19 @@ void EditSolver::Workspace::solve(const EditProblem& problem, const EditSettings
 
 void EditSolver::Workspace::solve_from_here(EditSolution& solution) {
   solution.message.clear();
-  iteration_limit_ = solution.iterations + settings_->max_iterations;
+  iteration_limit_ = solution.iterations + params_->max_iterations;
   last_centre_step_ = kInfinity;
   centre_step_.resize(0);
-  Outcome outcome = solve_strictly_convex(solution);
+  SolveResult result = solve_strictly_convex(solution);
   constexpr int kMaxNewtonSteps = 100;
-  for (int step = 0; step < kMaxNewtonSteps && outcome == Outcome::kDone; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps && result == SolveResult::kDone; ++step) {
     if (!chain_.is_proximal() || !move_proximal_centre()) break;
-    outcome = solve_strictly_convex(solution);
+    result = solve_strictly_convex(solution);
   }
-  solution.status = outcome == Outcome::kDone         ? EditStatus::kSolved
-                    : outcome == Outcome::kInfeasible ? EditStatus::kInfeasible
+  solution.status = result == SolveResult::kDone         ? EditStatus::kSolved
+                    : result == SolveResult::kInfeasible ? EditStatus::kInfeasible
                                                       : EditStatus::kIterationLimit;
-  if (outcome != Outcome::kDone) {
+  if (result != SolveResult::kDone) {
     solution.y.resize(0, 0);
     if (solution.message.empty()) solution.message = "the active set did not settle";
     return;
@@ -114,7 +114,7 @@ bool EditSolver::Workspace::fixed_rows_are_feasible(EditSolution& solution) cons
     const PointConstraint& c = problem_->constraints[i];
     if (c.node >= fixed_rows_) continue;
     const double excess = elte_planner::violation_of(c, problem_->fixed);
-    if (excess > settings_->tolerance * extent_ + 1e-15 * c.centre.cwiseAbs().maxCoeff()) {
+    if (excess > params_->tolerance * extent_ + 1e-15 * c.centre.cwiseAbs().maxCoeff()) {
       solution.message = name_of(static_cast<int>(i)) + " is violated by " +
                          std::to_string(excess) + " at a fixed row";
       return false;
@@ -146,29 +146,29 @@ void EditSolver::Workspace::build_right_side() {
   }
 }
 
-EditSolver::Workspace::Outcome EditSolver::Workspace::solve_strictly_convex(
+EditSolver::Workspace::SolveResult EditSolver::Workspace::solve_strictly_convex(
     EditSolution& solution) {
   for (Eigen::Index k = 0; k < fixed_rows_; ++k) y_.row(k) = problem_->fixed.row(k) - origin_;
   active_.reset(&chain_, n_, d_);
-  if (fixed_rows_ == n_) return Outcome::kDone;
+  if (fixed_rows_ == n_) return SolveResult::kDone;
   build_right_side();
   recompute_from_multipliers();
-  Outcome outcome = Outcome::kDone;
-  if (!add_equalities(solution, outcome)) return outcome;
+  SolveResult result = SolveResult::kDone;
+  if (!add_equalities(solution, result)) return result;
   // Violations below the rounding of the positions make facets come and go for ever: a round that
   // takes too long ends, and the next one asks for less.
   constexpr int kMaxRounds = 20;
-  tolerance_ = settings_->tolerance * extent_;
+  tolerance_ = params_->tolerance * extent_;
   for (int round = 0; round < kMaxRounds; ++round) {
     const int before = solution.iterations;
     const int patience = 300 + 30 * static_cast<int>(active_.size() + problem_->constraints.size());
-    outcome = add_violated(patience, solution);
-    if (outcome != Outcome::kDone) return outcome;
-    if (round > 0 && solution.iterations == before) return Outcome::kDone;
+    result = add_violated(patience, solution);
+    if (result != SolveResult::kDone) return result;
+    if (round > 0 && solution.iterations == before) return SolveResult::kDone;
     if (solution.iterations - before > patience) tolerance_ *= 10.0;
     polish();
   }
-  return Outcome::kDone;
+  return SolveResult::kDone;
 }
 
 // Steps and positions of the minimiser of the Lagrangian at the present multipliers.
@@ -229,7 +229,7 @@ void EditSolver::Workspace::polish() {
   }
 }
 
-bool EditSolver::Workspace::add_equalities(EditSolution& solution, Outcome& outcome) {
+bool EditSolver::Workspace::add_equalities(EditSolution& solution, SolveResult& result) {
   for (std::size_t i = 0; i < problem_->constraints.size(); ++i) {
     const PointConstraint& c = problem_->constraints[i];
     if (c.node < fixed_rows_) continue;
@@ -249,37 +249,37 @@ bool EditSolver::Workspace::add_equalities(EditSolution& solution, Outcome& outc
       if (active_.depends_on_active_facets_of_its_node()) {
         if (std::abs(missing) <= 1e-9 * extent_) continue;  // said twice
         name_contradiction(solution);
-        outcome = Outcome::kInfeasible;
+        result = SolveResult::kInfeasible;
         return false;
       }
-      outcome = enter(std::abs(missing), solution);
-      if (outcome != Outcome::kDone) return false;
+      result = enter(std::abs(missing), solution);
+      if (result != SolveResult::kDone) return false;
     }
   }
   return true;
 }
 
-EditSolver::Workspace::Outcome EditSolver::Workspace::add_violated(int patience,
+EditSolver::Workspace::SolveResult EditSolver::Workspace::add_violated(int patience,
                                                                    EditSolution& solution) {
   Facet facet;
   double violation = 0.0;
   const int limit = solution.iterations + patience;
   while (solution.iterations <= limit && most_violated(facet, violation)) {
     active_.propose(facet, best_normal_);
-    const Outcome outcome = enter(violation, solution);
-    if (outcome != Outcome::kDone) return outcome;
+    const SolveResult result = enter(violation, solution);
+    if (result != SolveResult::kDone) return result;
   }
-  return Outcome::kDone;
+  return SolveResult::kDone;
 }
 
 // One constraint's way into the active set: full steps in primal and dual space, or as far as a
 // multiplier stays positive, after which its facet leaves.
-EditSolver::Workspace::Outcome EditSolver::Workspace::enter(double violation,
+EditSolver::Workspace::SolveResult EditSolver::Workspace::enter(double violation,
                                                             EditSolution& solution) {
   const bool node_only = std::isinf(problem_->max_step) && std::isinf(problem_->max_first_step);
   double multiplier = 0.0;
   for (;;) {
-    if (++solution.iterations > iteration_limit_) return Outcome::kIterationLimit;
+    if (++solution.iterations > iteration_limit_) return SolveResult::kIterationLimit;
     // Facets of different nodes never depend on each other; with step bounds they can.
     const bool dependent = active_.depends_on_active_facets_of_its_node() ||
                            (!node_only && active_.pivot() <= 1e-11 * active_.own_product());
@@ -298,7 +298,7 @@ EditSolver::Workspace::Outcome EditSolver::Workspace::enter(double violation,
     const double step = std::min(full, blocking);
     if (std::isinf(step)) {
       name_contradiction(solution);
-      return Outcome::kInfeasible;
+      return SolveResult::kInfeasible;
     }
     if (!dependent) active_.move(step, y_);
     for (Eigen::Index a = 0; a < active_.size(); ++a) {
@@ -307,7 +307,7 @@ EditSolver::Workspace::Outcome EditSolver::Workspace::enter(double violation,
     multiplier += step;
     if (full <= blocking) {
       active_.accept(multiplier);
-      return Outcome::kDone;
+      return SolveResult::kDone;
     }
     if (!dependent) violation -= step * active_.pivot();
     active_.drop(leaving);
@@ -320,14 +320,14 @@ EditSolver::~EditSolver() = default;
 EditSolver::EditSolver(EditSolver&&) noexcept = default;
 EditSolver& EditSolver::operator=(EditSolver&&) noexcept = default;
 
-void EditSolver::solve(const EditProblem& problem, const EditSettings& settings,
+void EditSolver::solve(const EditProblem& problem, const EditParams& params,
                        EditSolution& solution) {
-  workspace_->solve(problem, settings, solution);
+  workspace_->solve(problem, params, solution);
 }
 
-EditSolution solve(const EditProblem& problem, const EditSettings& settings) {
+EditSolution solve(const EditProblem& problem, const EditParams& params) {
   EditSolution solution;
-  EditSolver().solve(problem, settings, solution);
+  EditSolver().solve(problem, params, solution);
   return solution;
 }
 

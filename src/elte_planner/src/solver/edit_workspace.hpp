@@ -16,10 +16,10 @@ namespace elte_planner {
 // of the whole problem then costs no digits.
 class EditSolver::Workspace {
  public:
-  void solve(const EditProblem& problem, const EditSettings& settings, EditSolution& solution);
+  void solve(const EditProblem& problem, const EditParams& params, EditSolution& solution);
 
  private:
-  enum class Outcome { kDone, kInfeasible, kIterationLimit };
+  enum class SolveResult { kDone, kInfeasible, kIterationLimit };
 
   void prepare();
   std::string ill_posed_reason() const;
@@ -27,13 +27,13 @@ class EditSolver::Workspace {
   void build_right_side();
   void solve_from_here(EditSolution& solution);
 
-  Outcome solve_strictly_convex(EditSolution& solution);
+  SolveResult solve_strictly_convex(EditSolution& solution);
   bool move_proximal_centre();
   void set_centre(const Eigen::VectorXd& centre);
   void respond_to_centre(Eigen::Index j, bool slope, Eigen::MatrixXd& change);
-  bool add_equalities(EditSolution& solution, Outcome& outcome);
-  Outcome add_violated(int patience, EditSolution& solution);
-  Outcome enter(double violation, EditSolution& solution);
+  bool add_equalities(EditSolution& solution, SolveResult& result);
+  SolveResult add_violated(int patience, EditSolution& solution);
+  SolveResult enter(double violation, EditSolution& solution);
   bool most_violated(Facet& facet, double& violation);
   void offer_ball(int constraint, Eigen::Index index, bool on_step, double radius, double& worst,
                   Facet& best);
@@ -53,7 +53,7 @@ class EditSolver::Workspace {
   void compute_gradient(const Eigen::MatrixXd& y);
 
   const EditProblem* problem_ = nullptr;
-  const EditSettings* settings_ = nullptr;
+  const EditParams* params_ = nullptr;
   Eigen::Index n_ = 0;
   Eigen::Index d_ = 0;
   Eigen::Index fixed_rows_ = 0;

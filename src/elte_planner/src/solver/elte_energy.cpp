@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -58,14 +59,9 @@ double chord_distance(const Eigen::MatrixXd& zeta) {
 }  // namespace
 
 void ElteWeights::validate() const {
-  const auto check = [](const char* name, double value) {
-    if (!std::isfinite(value) || value < 0.0 || value > 1e6) {
-      throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                  ", must be within [0, 1e6]");
-    }
-  };
-  check("w_elastic", elastic);
-  check("w_bending", bending);
+  constexpr double kMaxWeight = 1e6;  // the Laplacian's is 1
+  prf_core::require_between("w_elastic", elastic, 0.0, kMaxWeight);
+  prf_core::require_between("w_bending", bending, 0.0, kMaxWeight);
 }
 
 double ElteWeights::decay_nodes() const {

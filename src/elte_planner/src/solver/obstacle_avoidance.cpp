@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <prf_core/require.hpp>
 
 namespace elte_planner {
 namespace {
@@ -26,8 +26,8 @@ AvoidanceStatus without_obstacles(EditStatus status) {
 
 class Avoidance {
  public:
-  Avoidance(const AvoidanceProblem& problem, const AvoidanceSettings& settings)
-      : problem_(problem), settings_(settings), sides_(problem.obstacles.size()) {
+  Avoidance(const AvoidanceProblem& problem, const AvoidanceParams& params)
+      : problem_(problem), params_(params), sides_(problem.obstacles.size()) {
     const Eigen::MatrixXd& zeta = problem.edit.zeta;
     extent_ = std::max(1e-300, (zeta.rowwise() - zeta.row(0)).cwiseAbs().maxCoeff());
     first_ = std::max<Index>(problem.edit.fixed.rows(), 1);
@@ -102,7 +102,7 @@ class Avoidance {
 
   // Depth first over the sides of the obstacles that plans run into.
   void explore(const EditSolution& start) {
-    if (++choices_ > settings_.max_choices) return;
+    if (++choices_ > params_.max_choices) return;
     EditSolution plan = start;
     AvoidanceSolution found;
     const std::size_t hit = descend(plan, found);
@@ -124,7 +124,7 @@ class Avoidance {
   // no side yet, which is returned.
   std::size_t descend(EditSolution& plan, AvoidanceSolution& found) {
     bool clear = false;
-    for (int pass = 1; pass <= settings_.max_passes; ++pass) {
+    for (int pass = 1; pass <= params_.max_passes; ++pass) {
       const std::size_t hit = first_hit(plan.y);
       if (hit < sides_.size()) return hit;
       EditProblem convex = problem_.edit;
@@ -136,7 +136,7 @@ class Avoidance {
       found.passes = pass;
       found.last_move = (next.y - plan.y).cwiseAbs().maxCoeff();
       plan = next;
-      if (clear && found.last_move <= settings_.tolerance * extent_) break;
+      if (clear && found.last_move <= params_.tolerance * extent_) break;
     }
     if (clear) {
       found.status = AvoidanceStatus::kSolved;
@@ -164,7 +164,7 @@ class Avoidance {
   }
 
   const AvoidanceProblem& problem_;
-  const AvoidanceSettings& settings_;
+  const AvoidanceParams& params_;
   std::vector<Eigen::VectorXd> sides_;  // where to pass each obstacle; empty: not run into yet
   double extent_ = 1.0;
   Index first_ = 1;
@@ -179,16 +179,14 @@ class Avoidance {
 void AvoidanceProblem::validate() const {
   edit.validate();
   for (const Obstacle& obstacle : obstacles) obstacle.validate(edit.zeta.cols());
-  if (!(clearance > 0.0) || !std::isfinite(clearance)) {
-    throw std::invalid_argument("clearance is " + std::to_string(clearance) +
-                                ", must be finite and above 0");
-  }
+  prf_core::require(clearance > 0.0 && std::isfinite(clearance), "clearance", clearance,
+                    "finite and > 0");
 }
 
 AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
-                                  const AvoidanceSettings& settings) {
+                                  const AvoidanceParams& params) {
   problem.validate();
-  return Avoidance(problem, settings).solve();
+  return Avoidance(problem, params).solve();
 }
 
 }  // namespace elte_planner

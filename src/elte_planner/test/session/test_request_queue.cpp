@@ -117,7 +117,11 @@ TEST(RequestQueue, HoldsABoundedNumberOfForecasts) {
   RequestQueue queue;
   for (std::int64_t stamp = 1; stamp <= 5000; ++stamp) queue.add(forecast(stamp));
   queue.add(progress(5000, 100));
-  ASSERT_EQ(drained(queue).size(), 1u);
+  queue.add(progress(5010, 4500));
+  const auto requests = drained(queue);
+  ASSERT_EQ(requests.size(), 2u);
+  EXPECT_FALSE(requests[0].forecast);
+  EXPECT_TRUE(requests[1].forecast);
 }
 
 }  // namespace

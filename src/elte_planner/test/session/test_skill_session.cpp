@@ -12,6 +12,8 @@
 namespace elte_planner {
 namespace {
 
+using prf_core::pose_from;
+
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 Demonstration reach() {
@@ -59,23 +61,23 @@ Progress at(Eigen::Index frozen, double time_to_go) {
   return {10 * kSecond + kSecond / 10, 10 * kSecond, frozen, time_to_go};
 }
 
-double end_distance(const SkillAnswer& answer, const Pose& goal) {
-  return (answer.poses.back().pose.position - goal.position).lpNorm<1>();
+double end_distance(const SkillResult& result, const Pose& goal) {
+  return (result.poses.back().pose.position - goal.position).lpNorm<1>();
 }
 
 TEST(SkillSession, EndsAtTheDemonstratedPoseRelativeToThePredictedTarget) {
   SkillSession session(params(), reach());
   const Forecast forecast = drifting();
-  const SkillAnswer answer = session.answer(at(2, 0.65), &forecast);
-  ASSERT_EQ(answer.status, AnswerStatus::kSolved) << answer.message;
-  ASSERT_EQ(answer.poses.size(), 50u);
+  const SkillResult result = session.plan(at(2, 0.65), &forecast);
+  ASSERT_EQ(result.status, SkillStatus::kSolved) << result.message;
+  ASSERT_EQ(result.poses.size(), 50u);
   // 0.65 s to go and a forecast 0.1 s old: the target in 0.75 s.
   const Pose target = prediction(0.75, {0.0, 0.075, 0.02}, 0.0).target;
-  const Pose goal = pose_from(target.transform() * reach().goal_in_target().transform());
-  EXPECT_LE(end_distance(answer, goal), answer.radius + 1e-12);
-  EXPECT_LT(answer.poses.back().pose.orientation.angularDistance(goal.orientation), 1e-7);
-  EXPECT_LE(answer.kkt_residual, 1e-14);
-  EXPECT_EQ(answer.poses[1].time, reach().resampled_by_arc_length(50).samples()[1].time);
+  const Pose goal = pose_from(target.isometry() * reach().goal_in_target().isometry());
+  EXPECT_LE(end_distance(result, goal), result.radius + 1e-12);
+  EXPECT_LT(result.poses.back().pose.orientation.angularDistance(goal.orientation), 1e-7);
+  EXPECT_LE(result.kkt_residual, 1e-14);
+  EXPECT_EQ(result.poses[1].time, reach().resampled_by_arc_length(50).samples()[1].time);
 }
 
 TEST(PredictedTarget, FollowsASineBetweenItsPredictions) {
@@ -95,9 +97,9 @@ TEST(SkillSession, BringsTheApproachWithTheTargetAsItIsAtTheTimeOfEachNode) {
   bound.approach_length = 0.15;
   SkillSession session(bound, reach());
   const Forecast forecast = drifting();
-  const SkillAnswer answer = session.answer(at(10, 1.6), &forecast);
-  ASSERT_EQ(answer.status, AnswerStatus::kSolved) << answer.message;
-  EXPECT_LE(answer.kkt_residual, 1e-12);
+  const SkillResult result = session.plan(at(10, 1.6), &forecast);
+  ASSERT_EQ(result.status, SkillStatus::kSolved) << result.message;
+  EXPECT_LE(result.kkt_residual, 1e-12);
   const auto& shown = session.demonstration().samples();
   int checked = 0;
   for (std::size_t k = 48; k >= 10; --k, ++checked) {
@@ -105,11 +107,11 @@ TEST(SkillSession, BringsTheApproachWithTheTargetAsItIsAtTheTimeOfEachNode) {
     if (distance > bound.approach_length) break;
     const double time = std::max(1.7 - (shown[49].time - shown[k].time), 0.0);
     const Pose moved = prediction(time, {0.0, 0.1 * time, 0.02}, 0.0).target;
-    const Pose wanted = pose_from(moved.transform() * reach().target().transform().inverse() *
-                                  shown[k].pose.transform());
-    const double radius = answer.radius + 0.1 * distance;
-    EXPECT_LE((answer.poses[k].pose.position - wanted.position).lpNorm<1>(), radius + 1e-12) << k;
-    EXPECT_LT(answer.poses[k].pose.orientation.angularDistance(wanted.orientation), 1e-7) << k;
+    const Pose expected = pose_from(moved.isometry() * reach().target().isometry().inverse() *
+                                  shown[k].pose.isometry());
+    const double radius = result.radius + 0.1 * distance;
+    EXPECT_LE((result.poses[k].pose.position - expected.position).lpNorm<1>(), radius + 1e-12) << k;
+    EXPECT_LT(result.poses[k].pose.orientation.angularDistance(expected.orientation), 1e-7) << k;
   }
   EXPECT_GE(checked, 15);
 }
@@ -118,8 +120,8 @@ TEST(SkillSession, LooksNoFartherAheadThanAllowed) {
   SkillSession near(params(), reach());
   SkillSession far(params(), reach());
   const Forecast forecast = drifting();
-  EXPECT_EQ(near.answer(at(2, 1.9), &forecast).poses.back().pose.position,
-            far.answer(at(2, 50.0), &forecast).poses.back().pose.position);
+  EXPECT_EQ(near.plan(at(2, 1.9), &forecast).poses.back().pose.position,
+            far.plan(at(2, 50.0), &forecast).poses.back().pose.position);
 }
 
 TEST(SkillSession, OpensTheBallWithTheUncertaintyBetweenItsBounds) {
@@ -128,20 +130,20 @@ TEST(SkillSession, OpensTheBallWithTheUncertaintyBetweenItsBounds) {
   wide.radius_max = 1.0;
   SkillSession session(wide, reach());
   const Forecast forecast = drifting();
-  const double radius = session.answer(at(2, 0.9), &forecast).radius;
-  EXPECT_NEAR(radius, confidence_radius(0.011 * 0.011 * Eigen::Matrix3d::Identity(), 0.5), 1e-3);
+  const double radius = session.plan(at(2, 0.9), &forecast).radius;
+  EXPECT_NEAR(radius, confidence_radius(0.011 * 0.011 * Eigen::Matrix3d::Identity(), 0.5), 1e-5);
   SkillSession bounded(params(), reach());
-  EXPECT_EQ(bounded.answer(at(2, 1.9), &forecast).radius, 0.02);
+  EXPECT_EQ(bounded.plan(at(2, 1.9), &forecast).radius, 0.02);
   SessionParams loose = params();
   loose.radius_min = 0.02;
-  EXPECT_EQ(SkillSession(loose, reach()).answer(at(2, 0.0), &forecast).radius, 0.02);
+  EXPECT_EQ(SkillSession(loose, reach()).plan(at(2, 0.0), &forecast).radius, 0.02);
 }
 
 TEST(SkillSession, KeepsFrozenNodesOfThePreviousPlan) {
   SkillSession session(params(), reach());
   const Forecast forecast = drifting();
-  const SkillAnswer first = session.answer(at(2, 1.0), &forecast);
-  const SkillAnswer second = session.answer(at(20, 0.2), &forecast);
+  const SkillResult first = session.plan(at(2, 1.0), &forecast);
+  const SkillResult second = session.plan(at(20, 0.2), &forecast);
   EXPECT_EQ(second.frozen, 20);
   for (std::size_t k = 0; k < 20; ++k) {
     EXPECT_EQ(second.poses[k].pose.position, first.poses[k].pose.position);
@@ -155,17 +157,17 @@ TEST(SkillSession, HasNoPlanUntilThereIsATarget) {
   const Forecast nothing{10 * kSecond, TargetStatus::kNoTarget, {}};
   const Forecast lost = drifting(TargetStatus::kLost);
   for (const Forecast* forecast : {&nothing, &lost, static_cast<const Forecast*>(nullptr)}) {
-    const SkillAnswer answer = session.answer(at(2, 1.0), forecast);
-    EXPECT_EQ(answer.status, AnswerStatus::kNoPlan);
-    EXPECT_TRUE(answer.poses.empty());
-    EXPECT_FALSE(answer.message.empty());
+    const SkillResult result = session.plan(at(2, 1.0), forecast);
+    EXPECT_EQ(result.status, SkillStatus::kNoPlan);
+    EXPECT_TRUE(result.poses.empty());
+    EXPECT_FALSE(result.message.empty());
   }
 }
 
 TEST(SkillSession, KeepsTheLastPlanWhenTheForecastIsOfNoUse) {
   SkillSession session(params(), reach());
   const Forecast good = drifting();
-  const SkillAnswer first = session.answer(at(2, 1.0), &good);
+  const SkillResult first = session.plan(at(2, 1.0), &good);
 
   std::vector<Forecast> useless(6, good);
   useless[0].status = TargetStatus::kLost;
@@ -176,32 +178,32 @@ TEST(SkillSession, KeepsTheLastPlanWhenTheForecastIsOfNoUse) {
   useless[4].predictions.resize(1);
   useless[5].predictions[2].horizon = 0.5;
   for (const Forecast& forecast : useless) {
-    const SkillAnswer answer = session.answer(at(10, 0.6), &forecast);
-    EXPECT_EQ(answer.status, AnswerStatus::kKept);
-    EXPECT_FALSE(answer.message.empty());
-    ASSERT_EQ(answer.poses.size(), first.poses.size());
+    const SkillResult result = session.plan(at(10, 0.6), &forecast);
+    EXPECT_EQ(result.status, SkillStatus::kKept);
+    EXPECT_FALSE(result.message.empty());
+    ASSERT_EQ(result.poses.size(), first.poses.size());
     for (std::size_t k = 0; k < first.poses.size(); ++k) {
-      EXPECT_EQ(answer.poses[k].pose.position, first.poses[k].pose.position);
+      EXPECT_EQ(result.poses[k].pose.position, first.poses[k].pose.position);
     }
   }
-  EXPECT_EQ(session.answer(at(10, std::nan("")), &good).status, AnswerStatus::kKept);
-  EXPECT_EQ(session.answer(at(10, 0.6), nullptr).status, AnswerStatus::kKept);
+  EXPECT_EQ(session.plan(at(10, std::nan("")), &good).status, SkillStatus::kKept);
+  EXPECT_EQ(session.plan(at(10, 0.6), nullptr).status, SkillStatus::kKept);
 }
 
 TEST(SkillSession, PlansOnWhileTheForecastCoasts) {
   SkillSession session(params(), reach());
   const Forecast coasting = drifting(TargetStatus::kCoasting);
-  EXPECT_EQ(session.answer(at(2, 1.0), &coasting).status, AnswerStatus::kSolved);
+  EXPECT_EQ(session.plan(at(2, 1.0), &coasting).status, SkillStatus::kSolved);
 }
 
 TEST(SkillSession, SaysTheSlackWhenAllNodesAreFrozen) {
   SkillSession session(params(), reach());
   const Forecast forecast = drifting();
-  (void)session.answer(at(2, 2.0), &forecast);
-  const SkillAnswer answer = session.answer(at(1000, 0.0), &forecast);
-  EXPECT_EQ(answer.status, AnswerStatus::kRelaxed);
-  EXPECT_EQ(answer.frozen, 50);
-  EXPECT_GT(answer.slack, 0.1);
+  (void)session.plan(at(2, 2.0), &forecast);
+  const SkillResult result = session.plan(at(1000, 0.0), &forecast);
+  EXPECT_EQ(result.status, SkillStatus::kRelaxed);
+  EXPECT_EQ(result.frozen, 50);
+  EXPECT_GT(result.slack, 0.1);
 }
 
 TEST(SkillSession, OpensTheRadiusWhenTheTargetIsBeyondReach) {
@@ -209,14 +211,14 @@ TEST(SkillSession, OpensTheRadiusWhenTheTargetIsBeyondReach) {
   slow.max_step = 0.02;
   SkillSession session(slow, reach());
   Forecast forecast = drifting();
-  ASSERT_EQ(session.answer(at(2, 1.0), &forecast).status, AnswerStatus::kSolved);
+  ASSERT_EQ(session.plan(at(2, 1.0), &forecast).status, SkillStatus::kSolved);
   for (TargetPrediction& p : forecast.predictions) p.target.position.x() += 0.5;
-  const SkillAnswer answer = session.answer(at(40, 0.2), &forecast);
-  ASSERT_EQ(answer.status, AnswerStatus::kRelaxed) << answer.message;
-  EXPECT_FALSE(answer.message.empty());
-  EXPECT_GT(answer.slack, 0.1);
+  const SkillResult result = session.plan(at(40, 0.2), &forecast);
+  ASSERT_EQ(result.status, SkillStatus::kRelaxed) << result.message;
+  EXPECT_FALSE(result.message.empty());
+  EXPECT_GT(result.slack, 0.1);
   for (std::size_t k = 40; k < 50; ++k) {
-    EXPECT_LE((answer.poses[k].pose.position - answer.poses[k - 1].pose.position).lpNorm<1>(),
+    EXPECT_LE((result.poses[k].pose.position - result.poses[k - 1].pose.position).lpNorm<1>(),
               0.02 + 1e-12);
   }
 }
@@ -224,34 +226,34 @@ TEST(SkillSession, OpensTheRadiusWhenTheTargetIsBeyondReach) {
 TEST(SkillSession, KeepsTheLastPlanWhenASolveFails) {
   SkillSession session(params(), reach());
   const Forecast forecast = drifting();
-  const SkillAnswer before = session.answer(at(2, 1.0), &forecast);
+  const SkillResult before = session.plan(at(2, 1.0), &forecast);
   Forecast absurd = forecast;
   for (TargetPrediction& p : absurd.predictions) p.target.position.setConstant(1e308);
-  const SkillAnswer kept = session.answer(at(10, 0.8), &absurd);
-  ASSERT_EQ(kept.status, AnswerStatus::kKept);
+  const SkillResult kept = session.plan(at(10, 0.8), &absurd);
+  ASSERT_EQ(kept.status, SkillStatus::kKept);
   EXPECT_FALSE(kept.message.empty());
   EXPECT_EQ(kept.poses.back().pose.position, before.poses.back().pose.position);
 }
 
-TEST(SkillSession, AdaptsOnceToTheFirstTrackedTargetWithoutTheFramework) {
+TEST(SkillSession, AdaptsOnceToTheFirstTrackedTarget) {
   SessionParams blind = params();
-  blind.framework = false;
+  blind.adaptation = Adaptation::kOnce;
   SkillSession session(blind, reach());
   const Forecast coasting = drifting(TargetStatus::kCoasting);
-  EXPECT_EQ(session.answer(at(2, 1.0), &coasting).status, AnswerStatus::kNoPlan);
+  EXPECT_EQ(session.plan(at(2, 1.0), &coasting).status, SkillStatus::kNoPlan);
   const Forecast first = drifting();
-  const SkillAnswer adapted = session.answer(at(2, 1.0), &first);
-  ASSERT_EQ(adapted.status, AnswerStatus::kSolved);
+  const SkillResult adapted = session.plan(at(2, 1.0), &first);
+  ASSERT_EQ(adapted.status, SkillStatus::kSolved);
   const Pose goal =
-      pose_from(first.predictions[0].target.transform() * reach().goal_in_target().transform());
+      pose_from(first.predictions[0].target.isometry() * reach().goal_in_target().isometry());
   EXPECT_LE(end_distance(adapted, goal), adapted.radius + 1e-12);
 
   Forecast moved = first;
   for (TargetPrediction& p : moved.predictions) p.target.position.x() += 0.2;
   const Forecast lost = drifting(TargetStatus::kLost);
   for (const Forecast* later : {static_cast<const Forecast*>(&moved), &lost}) {
-    const SkillAnswer repeated = session.answer(at(30, 0.3), later);
-    EXPECT_EQ(repeated.status, AnswerStatus::kSolved);
+    const SkillResult repeated = session.plan(at(30, 0.3), later);
+    EXPECT_EQ(repeated.status, SkillStatus::kSolved);
     for (std::size_t k = 0; k < 50; ++k) {
       EXPECT_EQ(repeated.poses[k].pose.position, adapted.poses[k].pose.position);
     }
@@ -261,9 +263,9 @@ TEST(SkillSession, AdaptsOnceToTheFirstTrackedTargetWithoutTheFramework) {
 TEST(SkillSession, ForgetsThePlanInANewRun) {
   SkillSession session(params(), reach());
   const Forecast forecast = drifting();
-  (void)session.answer(at(2, 1.0), &forecast);
+  (void)session.plan(at(2, 1.0), &forecast);
   session.reset();
-  EXPECT_EQ(session.answer(at(2, 1.0), nullptr).status, AnswerStatus::kNoPlan);
+  EXPECT_EQ(session.plan(at(2, 1.0), nullptr).status, SkillStatus::kNoPlan);
 }
 
 TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {

@@ -23,6 +23,7 @@ TEST(EditProblem, IsRefusedWhenInvalid) {
     change(bad);
     EXPECT_THROW((void)solve(bad), std::invalid_argument);
   };
+  EXPECT_EQ(solve(problem).status, EditStatus::kSolved);
   refused([](EditProblem& p) { p.constraints[0].node = 30; });
   refused([](EditProblem& p) { p.constraints[0].node = -1; });
   refused([](EditProblem& p) { p.constraints[0].radius = -0.1; });

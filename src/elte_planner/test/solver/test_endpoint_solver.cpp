@@ -186,6 +186,7 @@ TEST(EndpointSolver, RefusesWhatIsNoProblem) {
   const EndpointSolver solver(zeta, {});
   Eigen::MatrixXd plan = zeta;
   const Eigen::Vector2d goal(0.0, 0.0);
+  EXPECT_NO_THROW(solver.solve(2, goal, 0.0, plan));
   EXPECT_THROW(solver.solve(1, goal, 0.0, plan), std::invalid_argument);
   EXPECT_THROW(solver.solve(10, goal, 0.0, plan), std::invalid_argument);
   EXPECT_THROW(solver.solve(2, goal, -1e-9, plan), std::invalid_argument);

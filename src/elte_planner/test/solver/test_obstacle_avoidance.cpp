@@ -75,6 +75,7 @@ AvoidanceProblem straight(Index nodes) {
 
 TEST(Obstacle, DistanceFromASegmentIsThatOfItsNearestSample) {
   std::mt19937 random(1);
+  int apart = 0;
   for (int i = 0; i < 2000; ++i) {
     const Index d = std::uniform_int_distribution<Index>(1, 4)(random);
     const Obstacle obstacle = random_obstacle(Eigen::VectorXd::Zero(d), random);
@@ -84,13 +85,18 @@ TEST(Obstacle, DistanceFromASegmentIsThatOfItsNearestSample) {
     const double sampled = std::max(sampled_clearance(ends, 0, {obstacle}), 0.0);
     ASSERT_LE(found.distance, sampled + 1e-12) << i;
     ASSERT_GE(found.distance, sampled - 0.002) << i;
+    ASSERT_EQ(found.normal.size() > 0, found.distance > 0.0) << i;
     if (found.distance == 0.0) continue;
+    ++apart;
+    ASSERT_NEAR(found.normal.norm(), 1.0, 1e-12) << i;
     // The plane through the obstacle's point nearest to the segment separates the two.
     const double plane = found.normal.dot(obstacle.centre) + obstacle.reach(found.normal);
     for (const Index k : {0, 1}) {
       ASSERT_GE(ends.row(k).dot(found.normal), plane + found.distance - 1e-12) << i;
     }
   }
+  EXPECT_GT(apart, 1000);
+  EXPECT_LT(apart, 1900);
 }
 
 TEST(ObstacleAvoidance, KeepsTheClearanceAllAlongThePolyline) {
@@ -178,6 +184,7 @@ TEST(ObstacleAvoidance, InvalidObstaclesAreRefused) {
     change(problem);
     EXPECT_THROW((void)avoid_obstacles(problem), std::invalid_argument);
   };
+  EXPECT_NO_THROW((void)avoid_obstacles(straight(10)));
   refused([](AvoidanceProblem& p) { p.clearance = 0.0; });
   refused([](AvoidanceProblem& p) { p.clearance = std::nan(""); });
   refused([](AvoidanceProblem& p) { p.obstacles[0].radius = -0.1; });

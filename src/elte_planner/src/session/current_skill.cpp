@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "elte_planner/followed_skill.hpp"
+#include "elte_planner/current_skill.hpp"
 
 #include <filesystem>
 #include <stdexcept>
 
 namespace elte_planner {
 
-FollowedSkill::FollowedSkill(const SessionParams& params, const std::string& demonstration,
+CurrentSkill::CurrentSkill(const SessionParams& params, const std::string& demonstration,
                              const std::string& frame)
     : params_(params), first_(demonstration), frame_(frame) {
   load(first_);
 }
 
-void FollowedSkill::load(const std::string& file) {
+void CurrentSkill::load(const std::string& file) {
   const auto type = std::filesystem::status(file).type();
   if (type != std::filesystem::file_type::regular &&
       type != std::filesystem::file_type::not_found) {
@@ -27,20 +27,20 @@ void FollowedSkill::load(const std::string& file) {
   file_ = file;
 }
 
-std::optional<std::string> FollowedSkill::follow(const WantedSkill& wanted) {
-  if (wanted == followed_) {
+std::optional<std::string> CurrentSkill::select(const DemonstrationRequest& request) {
+  if (request == current_) {
     refusal_.reset();
     return std::nullopt;
   }
-  if (refusal_ && refusal_->wanted == wanted) return refusal_->reason;
-  const auto beside_first = std::filesystem::path(first_).parent_path();
+  if (refusal_ && refusal_->request == request) return refusal_->reason;
+  const auto folder = std::filesystem::path(first_).parent_path();
   try {
-    load(wanted.demonstration.empty() ? first_ : (beside_first / wanted.demonstration).string());
+    load(request.file.empty() ? first_ : (folder / request.file).string());
   } catch (const std::invalid_argument& error) {
-    refusal_ = Refusal{wanted, error.what()};
+    refusal_ = Refusal{request, error.what()};
     return error.what();
   }
-  followed_ = wanted;
+  current_ = request;
   refusal_.reset();
   return std::nullopt;
 }

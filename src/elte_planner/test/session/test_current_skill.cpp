@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "elte_planner/followed_skill.hpp"
+#include "elte_planner/current_skill.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -15,13 +15,13 @@ namespace elte_planner {
 namespace {
 
 // A folder of demonstrations that end at different heights.
-struct FollowedSkills : testing::Test {
-  FollowedSkills() {
+struct CurrentSkillTest : testing::Test {
+  CurrentSkillTest() {
     std::filesystem::create_directories(folder);
     write("first.csv", 0.1);
     write("second.csv", 0.2);
   }
-  ~FollowedSkills() override { std::filesystem::remove_all(folder); }
+  ~CurrentSkillTest() override { std::filesystem::remove_all(folder); }
 
   void write(const std::string& name, double height, const std::string& frame = "arm") const {
     std::ofstream file(folder / name);
@@ -32,7 +32,7 @@ struct FollowedSkills : testing::Test {
     }
   }
 
-  FollowedSkill followed() const { return {params(), path("first.csv"), "arm"}; }
+  CurrentSkill first_skill() const { return {params(), path("first.csv"), "arm"}; }
 
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
@@ -44,41 +44,41 @@ struct FollowedSkills : testing::Test {
     return result;
   }
 
-  static double height(const FollowedSkill& skill) {
+  static double height(const CurrentSkill& skill) {
     return skill.session().demonstration().samples().back().pose.position.z();
   }
 
   const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("followed_skill_" + std::to_string(getpid()));
+      std::filesystem::temp_directory_path() / ("current_skill_" + std::to_string(getpid()));
 };
 
-TEST_F(FollowedSkills, ChangeWithWhatIsWantedAndComeBack) {
-  FollowedSkill skill = followed();
-  EXPECT_EQ(skill.follow({"", 0}), std::nullopt);
+TEST_F(CurrentSkillTest, ChangesWithTheRequestAndComesBack) {
+  CurrentSkill skill = first_skill();
+  EXPECT_EQ(skill.select({"", 0}), std::nullopt);
   EXPECT_NEAR(height(skill), 0.1, 1e-12);
-  EXPECT_EQ(skill.follow({path("second.csv"), 1}), std::nullopt);
+  EXPECT_EQ(skill.select({path("second.csv"), 1}), std::nullopt);
   EXPECT_NEAR(height(skill), 0.2, 1e-12);
   EXPECT_EQ(skill.demonstration(), path("second.csv"));
-  EXPECT_EQ(skill.follow({"first.csv", 2}), std::nullopt);  // beside the first one
+  EXPECT_EQ(skill.select({"first.csv", 2}), std::nullopt);  // beside the first one
   EXPECT_NEAR(height(skill), 0.1, 1e-12);
-  EXPECT_EQ(skill.follow({"second.csv", 3}), std::nullopt);
-  EXPECT_EQ(skill.follow({"", 0}), std::nullopt);  // a decision that was started anew
+  EXPECT_EQ(skill.select({"second.csv", 3}), std::nullopt);
+  EXPECT_EQ(skill.select({"", 0}), std::nullopt);  // a decision that was started anew
   EXPECT_EQ(skill.demonstration(), path("first.csv"));
 }
 
 // As a planner that was started anew amid the execution of another than its first one.
-TEST_F(FollowedSkills, BeginWithAnyThatIsWanted) {
-  FollowedSkill skill = followed();
-  EXPECT_EQ(skill.follow({"second.csv", 7}), std::nullopt);
+TEST_F(CurrentSkillTest, BeginsWithAnyRequest) {
+  CurrentSkill skill = first_skill();
+  EXPECT_EQ(skill.select({"second.csv", 7}), std::nullopt);
   EXPECT_NEAR(height(skill), 0.2, 1e-12);
 }
 
-TEST_F(FollowedSkills, StayWhenTheOneWantedIsRefusedWithTheReadersReason) {
+TEST_F(CurrentSkillTest, StaysWhenTheRequestIsRefusedWithTheReadersReason) {
   write("elsewhere.csv", 0.3, "world");
   std::ofstream(folder / "bad.csv") << "time,x\n";
   ASSERT_EQ(mkfifo(path("fifo").c_str(), 0600), 0);
-  FollowedSkill skill = followed();
-  ASSERT_EQ(skill.follow({"second.csv", 1}), std::nullopt);
+  CurrentSkill skill = first_skill();
+  ASSERT_EQ(skill.select({"second.csv", 1}), std::nullopt);
   const SkillSession* const before = &skill.session();
   std::uint32_t number = 1;
   for (const auto& [name, reason] :
@@ -86,32 +86,32 @@ TEST_F(FollowedSkills, StayWhenTheOneWantedIsRefusedWithTheReadersReason) {
         std::pair("bad.csv", ":1: header is 'time,x'"),
         std::pair("elsewhere.csv", "must be 'world'"), std::pair("fifo", ": is no file"),
         std::pair(".", ": is no file")}) {
-    const auto refusal = skill.follow({name, ++number});
+    const auto refusal = skill.select({name, ++number});
     ASSERT_TRUE(refusal) << name;
     EXPECT_NE(refusal->find(reason), std::string::npos) << *refusal;
-    EXPECT_EQ(skill.follow({name, number}), refusal);
+    EXPECT_EQ(skill.select({name, number}), refusal);
   }
-  EXPECT_EQ(skill.follow({"second.csv", 1}), std::nullopt);
+  EXPECT_EQ(skill.select({"second.csv", 1}), std::nullopt);
   EXPECT_EQ(&skill.session(), before);  // with its plan
 }
 
-TEST_F(FollowedSkills, AreReadWhenTheNumberChangesAndOnlyThen) {
-  FollowedSkill skill = followed();
-  ASSERT_EQ(skill.follow({"second.csv", 1}), std::nullopt);
-  ASSERT_TRUE(skill.follow({"third.csv", 2}));
+TEST_F(CurrentSkillTest, IsReadWhenTheNumberChangesAndOnlyThen) {
+  CurrentSkill skill = first_skill();
+  ASSERT_EQ(skill.select({"second.csv", 1}), std::nullopt);
+  ASSERT_TRUE(skill.select({"third.csv", 2}));
   write("second.csv", 0.4);
   write("third.csv", 0.3);
-  EXPECT_TRUE(skill.follow({"third.csv", 2}));
-  EXPECT_EQ(skill.follow({"second.csv", 1}), std::nullopt);
+  EXPECT_TRUE(skill.select({"third.csv", 2}));
+  EXPECT_EQ(skill.select({"second.csv", 1}), std::nullopt);
   EXPECT_NEAR(height(skill), 0.2, 1e-12);
-  EXPECT_EQ(skill.follow({"second.csv", 3}), std::nullopt);
+  EXPECT_EQ(skill.select({"second.csv", 3}), std::nullopt);
   EXPECT_NEAR(height(skill), 0.4, 1e-12);
-  EXPECT_EQ(skill.follow({"third.csv", 4}), std::nullopt);
+  EXPECT_EQ(skill.select({"third.csv", 4}), std::nullopt);
 }
 
-TEST_F(FollowedSkills, RefuseABadFirstOne) {
-  EXPECT_THROW(FollowedSkill(params(), path("missing.csv"), "arm"), std::invalid_argument);
-  EXPECT_THROW(FollowedSkill(params(), path("first.csv"), "world"), std::invalid_argument);
+TEST_F(CurrentSkillTest, RefusesABadFirstOne) {
+  EXPECT_THROW(CurrentSkill(params(), path("missing.csv"), "arm"), std::invalid_argument);
+  EXPECT_THROW(CurrentSkill(params(), path("first.csv"), "world"), std::invalid_argument);
 }
 
 }  // namespace
