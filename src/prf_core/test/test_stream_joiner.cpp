@@ -51,6 +51,8 @@ TEST(StreamJoiner, DecidesAloneOnceALaterSecondaryHasCome) {
   primary(joiner, 10);
   secondary(joiner, 20);
   EXPECT_EQ(decided(joiner), "10=- ");
+  joiner.push_primary(milliseconds(20) - Duration{1}, 19);
+  EXPECT_FALSE(joiner.pop()->secondary);
   EXPECT_EQ(secondary(joiner, 20), StampOrder::kDuplicate);
   primary(joiner, 20);
   EXPECT_EQ(decided(joiner), "20=20 ");
@@ -70,6 +72,17 @@ TEST(StreamJoiner, GivesUpOnASilentStreamUntilItComesAgain) {
   EXPECT_EQ(decided(joiner), "");
   secondary(joiner, 50);
   EXPECT_EQ(decided(joiner), "50=50 ");
+}
+
+TEST(StreamJoiner, WaitsAgainInANewRun) {
+  Joiner joiner = joiner_with(milliseconds(30));
+  for (const int ms : {5000, 5040}) primary(joiner, ms);
+  EXPECT_EQ(decided(joiner), "5000=- 5040=- ");
+  primary(joiner, 0);
+  EXPECT_FALSE(joiner.is_silent());
+  EXPECT_EQ(decided(joiner), "");
+  EXPECT_EQ(secondary(joiner, 0), StampOrder::kNewer);
+  EXPECT_EQ(secondary(joiner, 10), StampOrder::kNewer);  // no longer too late
 }
 
 TEST(StreamJoiner, GivesUpWhenMorePrimariesWaitThanItsCapacity) {
@@ -133,6 +146,9 @@ TEST(StreamJoiner, RecoversFromASecondaryFarInThePast) {
   secondary(joiner, 5010);
   primary(joiner, 5010);
   EXPECT_EQ(decided(joiner), "5000=- 5010=5010 ");
+  secondary(joiner, 5020);
+  primary(joiner, 0);  // what has come is again of the old run
+  EXPECT_EQ(decided(joiner), "");
 }
 
 // A step back that is too short for the default bound, as when a simulator is started again soon.
@@ -156,16 +172,33 @@ TEST(StreamJoiner, WithABoundOfZeroBeginsANewRunAtEveryStepBack) {
   }
 }
 
+// It comes back a little before or after the stamp at which the old run ended.
 TEST(StreamJoiner, FollowsASecondaryThatWasSilentWhileTheClockWentBack) {
+  for (const int back : {4990, 5010}) {
+    Joiner joiner = joiner_with(milliseconds(300));
+    secondary(joiner, 5000);
+    primary(joiner, 5000);
+    EXPECT_EQ(decided(joiner), "5000=5000 ");
+    for (int ms = 0; ms < 4990; ms += 100) primary(joiner, ms);
+    EXPECT_EQ(decided(joiner).rfind("*0=- 100=- ", 0), 0u);
+    EXPECT_EQ(secondary(joiner, back), StampOrder::kBackwardJump);
+    primary(joiner, back);
+    EXPECT_EQ(decided(joiner), std::to_string(back) + "=" + std::to_string(back) + " ");
+  }
+}
+
+TEST(StreamJoiner, KeepsSecondariesOfTheNewRunWhileItGivesUpOnTheOldOne) {
   Joiner joiner = joiner_with(milliseconds(300));
-  secondary(joiner, 5000);
   primary(joiner, 5000);
+  EXPECT_EQ(secondary(joiner, 5000), StampOrder::kNewer);
   EXPECT_EQ(decided(joiner), "5000=5000 ");
-  for (int ms = 0; ms <= 5000; ms += 100) primary(joiner, ms);
-  EXPECT_EQ(decided(joiner).rfind("*0=- 100=- ", 0), 0u);
-  EXPECT_EQ(secondary(joiner, 5010), StampOrder::kBackwardJump);
+  secondary(joiner, 0);
   primary(joiner, 5010);
-  EXPECT_EQ(decided(joiner), "5010=5010 ");
+  EXPECT_EQ(decided(joiner), "");
+  primary(joiner, 5400);
+  EXPECT_EQ(decided(joiner), "5010=- 5400=- ");
+  primary(joiner, 0);
+  EXPECT_EQ(decided(joiner), "*0=0 ");
 }
 
 // Two runs: each stream goes back from 5000 to 0 in its own time.

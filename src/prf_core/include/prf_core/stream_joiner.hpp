@@ -87,6 +87,7 @@ class StreamJoiner {
     const bool follows =
         ahead_ == Ahead::kPrimary && (jumps || stamp - *clock_.newest() <= params_.secondary_jump);
     if (ahead_ == Ahead::kPrimary && !follows) return StampOrder::kOld;
+    const bool was_heard = secondaries_.clock().newest().has_value();
     silence_.heard();
     if (follows) {
       secondaries_.clock().restart();
@@ -97,7 +98,7 @@ class StreamJoiner {
     }
     const bool late = ahead_ == Ahead::kNone && decided_ && stamp <= *decided_;
     const StampOrder order = secondaries_.push(stamp, std::move(message));
-    if (follows) return StampOrder::kBackwardJump;
+    if (follows && was_heard) return StampOrder::kBackwardJump;
     return late && order == StampOrder::kNewer ? StampOrder::kOld : order;
   }
 
@@ -132,7 +133,7 @@ class StreamJoiner {
 
   [[nodiscard]] bool is_past(Stamp key) const {
     const auto newest = secondaries_.clock().newest();
-    return ahead_ != Ahead::kPrimary && newest && *newest >= key;
+    return ahead_ != Ahead::kPrimary && newest && *newest > key;
   }
 
   [[nodiscard]] bool gives_up(Stamp waiting) {
