@@ -7,17 +7,18 @@
 #include <optional>
 #include <stdexcept>
 
-#include "arm_servo.hpp"
-#include "base_carrier.hpp"
-#include "body_motion.hpp"
-#include "gaits.hpp"
-#include "leg_sensors.hpp"
-#include "pilot.hpp"
+#include "motion/body_motion.hpp"
+#include "physics/arm_servo.hpp"
+#include "physics/base_carrier.hpp"
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "require.hpp"
-#include "stance.hpp"
-#include "stiff_controller.hpp"
+#include "v60_gait/gaits.hpp"
+#include "v60_gait/gravity.hpp"
+#include "v60_gait/leg_sensors.hpp"
+#include "v60_gait/operator.hpp"
+#include "v60_gait/stance.hpp"
+#include "v60_gait/stiff_controller.hpp"
 
 namespace platform_sim {
 namespace {
@@ -60,9 +61,10 @@ RobotSurface robot_surface(const std::string& body, double friction) {
   return {"", {kLegs, kSurroundings | kForearm}, friction, kFootStiffness, kFootDamping};
 }
 
-std::vector<CuboidBody::Part> to_parts(const std::vector<Cuboid>& cuboids) {
+std::vector<CuboidBody::Part> to_parts(const std::vector<camera_sim::Cuboid>& cuboids) {
   std::vector<CuboidBody::Part> parts;
-  for (const Cuboid& cuboid : cuboids) parts.emplace_back(cuboid.pose_in_platform, cuboid.size);
+  for (const camera_sim::Cuboid& cuboid : cuboids)
+    parts.emplace_back(cuboid.pose_in_platform, cuboid.size);
   return parts;
 }
 
@@ -83,7 +85,7 @@ class World::Impl {
 
   [[nodiscard]] double time() const { return static_cast<double>(steps_) * kTimeStep; }
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
-  [[nodiscard]] const TargetBox& target() const { return target_; }
+  [[nodiscard]] const camera_sim::TargetBox& target() const { return target_; }
   [[nodiscard]] const std::vector<std::string>& joint_names() const { return joint_names_; }
   [[nodiscard]] bool fallen() const { return fallen_; }
   ContactRecorder contacts;
@@ -92,7 +94,7 @@ class World::Impl {
   void place_robot(const WorldConfig& config);
   void settle();
   void drive_legs();
-  [[nodiscard]] LegObservation observe_legs();
+  [[nodiscard]] v60_gait::LegObservation observe_legs();
   void judge_fall(const std::vector<ContactPoint>& points);
   [[nodiscard]] bool is_carried() const { return motion_.carries_base() || body_motion_; }
   [[nodiscard]] Eigen::Isometry3d carried_base() const;
@@ -101,23 +103,23 @@ class World::Impl {
   std::optional<BodyMotion> body_motion_;
   Eigen::Isometry3d base_start_ = Eigen::Isometry3d::Identity();  // in platform
   std::optional<CartPush> push_;
-  TargetBox target_;
+  camera_sim::TargetBox target_;
   BulletScene scene_{kTimeStep};
   CuboidBody deck_;
   CuboidBody box_;
   CuboidBody support_;
   RobotModel robot_;
   std::vector<std::string> joint_names_;
-  std::vector<const RobotJoint*> leg_joints_;
-  std::vector<const RobotJoint*> arm_joints_;
+  std::vector<const v60_gait::RobotJoint*> leg_joints_;
+  std::vector<const v60_gait::RobotJoint*> arm_joints_;
   std::unique_ptr<BaseCarrier> base_carrier_;  // if is_carried()
-  std::unique_ptr<LegController> legs_;
-  LegSensors sensors_;
-  std::optional<Pilot> pilot_;
+  std::unique_ptr<v60_gait::LegController> legs_;
+  v60_gait::LegSensors sensors_;
+  std::optional<v60_gait::Operator> operator_;
   std::unique_ptr<ArmDrive> arm_;
   ArmServo* servo_ = nullptr;          // arm_, in servo mode
   CompliantArm* compliant_ = nullptr;  // arm_, in compliant mode
-  LegVector leg_efforts_ = LegVector::Zero();
+  v60_gait::LegVector leg_efforts_ = v60_gait::LegVector::Zero();
   std::int64_t steps_ = 0;
   bool fallen_ = false;
 };
@@ -127,7 +129,7 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
       target_(config.placed_target()),
-      deck_(scene_, "platform", to_parts({deck()}), {kDeck, ~kSurroundings},
+      deck_(scene_, "platform", to_parts({camera_sim::deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
       box_(scene_, "box", to_parts(target_.walls()), {kTarget, ~kSurroundings},
            motion_.deck(0.0).pose),
@@ -140,7 +142,7 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
                return surface;
              }),
       sensors_(config.seed, kTimeStep) {
-  for (const std::string& name : leg_joint_names()) {
+  for (const std::string& name : v60_gait::leg_joint_names()) {
     leg_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
   }
@@ -166,14 +168,14 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
 
 void World::Impl::place_robot(const WorldConfig& config) {
   for (std::size_t i = 0; i < arm_joints_.size(); ++i) {
-    const RobotJoint& joint = *arm_joints_[i];
+    const v60_gait::RobotJoint& joint = *arm_joints_[i];
     const double position = config.arm_start[static_cast<Eigen::Index>(i)];
     if (joint.has_position_limits) {
       require_between("arm_start of joint " + joint.name, position, joint.lower, joint.upper);
     }
     robot_.set_position(joint, position);
   }
-  const Stance stance = find_stance(robot_.tree());
+  const v60_gait::Stance stance = v60_gait::find_stance(robot_.tree());
   for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
     robot_.set_position(*leg_joints_[i], stance.posture[static_cast<Eigen::Index>(i)]);
   }
@@ -182,14 +184,19 @@ void World::Impl::place_robot(const WorldConfig& config) {
                     ? body_motion_->base_in_platform(0.0)
                     : Eigen::Translation3d(config.base_start_x, config.base_start_y, height) *
                           Eigen::AngleAxisd(config.base_start_yaw, Eigen::Vector3d::UnitZ());
-  pilot_.emplace(base_start_);
+  operator_.emplace(base_start_);
   robot_.set_base_pose(carried_base());
   robot_.update_poses();
   if (is_carried()) {
     base_carrier_ = std::make_unique<BaseCarrier>(scene_, robot_);
-    legs_ = std::make_unique<StiffController>(stance.posture, LegVector::Zero());
+    legs_ =
+        std::make_unique<v60_gait::StiffController>(stance.posture, v60_gait::LegVector::Zero());
   } else {
-    legs_ = make_leg_controller(config.gait, robot_, stance, config.friction, config.seed);
+    v60_gait::BodyModel body;
+    body.weight = robot_.mass() * v60_gait::kGravity;
+    body.centre_of_mass_in_base =
+        robot_.frame("base_link").pose.inverse() * robot_.centre_of_mass();
+    legs_ = v60_gait::make_leg_controller(config.gait, stance, body, config.friction, config.seed);
   }
 }
 
@@ -218,8 +225,8 @@ void World::Impl::step() {
   judge_fall(points);
 }
 
-LegObservation World::Impl::observe_legs() {
-  LegObservation observation;
+v60_gait::LegObservation World::Impl::observe_legs() {
+  v60_gait::LegObservation observation;
   observation.time = time();
   for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
     observation.positions[static_cast<Eigen::Index>(i)] = robot_.position(*leg_joints_[i]);
@@ -229,7 +236,7 @@ LegObservation World::Impl::observe_legs() {
   observation.attitude = Eigen::Quaterniond(base.pose.linear());
   observation.angular_velocity = base.pose.linear().transpose() * base.angular;
   if (time() >= 0.0) {
-    observation.stick = pilot_->stick(time(), motion_.deck(time()).pose.inverse() * base.pose);
+    observation.stick = operator_->stick(time(), motion_.deck(time()).pose.inverse() * base.pose);
   }
   return sensors_.measure(observation);
 }
@@ -237,7 +244,7 @@ LegObservation World::Impl::observe_legs() {
 void World::Impl::drive_legs() {
   leg_efforts_ = legs_->torques(observe_legs());
   for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
-    const RobotJoint& joint = *leg_joints_[i];
+    const v60_gait::RobotJoint& joint = *leg_joints_[i];
     double& effort = leg_efforts_[static_cast<Eigen::Index>(i)];
     effort = std::clamp(effort, -joint.max_effort, joint.max_effort);
     robot_.apply_torque(joint, effort);
@@ -288,9 +295,9 @@ JointStates World::Impl::joints() const {
   states.positions.resize(kAllJoints);
   states.velocities.resize(kAllJoints);
   for (Eigen::Index i = 0; i < kAllJoints; ++i) {
-    const RobotJoint& joint = i < kLegJoints
-                                  ? *leg_joints_[static_cast<std::size_t>(i)]
-                                  : *arm_joints_[static_cast<std::size_t>(i - kLegJoints)];
+    const v60_gait::RobotJoint& joint =
+        i < kLegJoints ? *leg_joints_[static_cast<std::size_t>(i)]
+                       : *arm_joints_[static_cast<std::size_t>(i - kLegJoints)];
     states.positions[i] = robot_.position(joint);
     states.velocities[i] = robot_.velocity(joint);
   }
@@ -316,7 +323,7 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-const std::vector<std::string>& World::gait_names() { return platform_sim::gait_names(); }
+const std::vector<std::string>& World::gait_names() { return v60_gait::gait_names(); }
 
 void World::step() { impl_->step(); }
 double World::time() const { return impl_->time(); }
@@ -327,7 +334,7 @@ FrameState World::base() const { return impl_->robot().frame("base_link"); }
 FrameState World::platform() const { return impl_->platform(); }
 FrameState World::carrier() const { return impl_->carrier(); }
 FrameState World::tag() const { return impl_->tag(); }
-const TargetBox& World::target() const { return impl_->target(); }
+const camera_sim::TargetBox& World::target() const { return impl_->target(); }
 std::vector<Contact> World::take_contacts() { return impl_->contacts.take(); }
 bool World::fallen() const { return impl_->fallen(); }
 

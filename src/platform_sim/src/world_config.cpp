@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "body_motion.hpp"
-#include "gaits.hpp"
+#include "motion/body_motion.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "require.hpp"
+#include "v60_gait/gaits.hpp"
 
 namespace platform_sim {
 namespace {
@@ -29,8 +29,8 @@ const std::vector<std::string>& WorldConfig::scenario_names() {
   return names;
 }
 
-TargetBox WorldConfig::placed_target() const {
-  TargetBox placed = target;
+camera_sim::TargetBox WorldConfig::placed_target() const {
+  camera_sim::TargetBox placed = target;
   placed.on_cart = scenario == kCart;
   return placed;
 }
@@ -47,7 +47,7 @@ void WorldConfig::validate() const {
   }
   const PlatformMotion deck_motion(motion);
   if (!body_motion.empty()) require_body_motion(body_motion);
-  require_gait(gait);
+  v60_gait::require_gait(gait);
   if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {
     throw std::invalid_argument("gait is '" + gait + "', must be stand when the base is carried");
   }

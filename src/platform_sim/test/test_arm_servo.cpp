@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "arm_servo.hpp"
+#include "physics/arm_servo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bullet_scene.hpp"
+#include "physics/bullet_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "multibody_from_urdf.hpp"
+#include "physics/multibody_from_urdf.hpp"
 #include "test_robots.hpp"
 
 namespace platform_sim {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody_from_urdf.hpp"
+#include "physics/multibody_from_urdf.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "robot_urdf.hpp"
 #include "test_robots.hpp"
+#include "v60_gait/gravity.hpp"
+#include "v60_gait/leg_model.hpp"
 
 namespace platform_sim {
 namespace {
@@ -66,7 +69,7 @@ double potential_energy(const RobotModel& robot) {
 
 double kinetic_energy(const RobotModel& robot) {
   double energy = 0.0;
-  for (const RigidBody& body : robot.tree().bodies) {
+  for (const v60_gait::RigidBody& body : robot.tree().bodies) {
     const FrameState link = robot.frame(body.name);
     const Eigen::Matrix3d& rotation = link.pose.linear();
     const Eigen::Vector3d velocity =
@@ -125,7 +128,7 @@ TEST(RobotModel, PendulumSwingsWithItsPeriod) {
       "<axis xyz='0 1 0'/></joint></robot>";
   BulletScene scene(kTimeStep);
   RobotModel robot(scene, urdf, RobotModel::Base::kFixed, untouchable);
-  const RobotJoint& pivot = robot.joint("pivot");
+  const v60_gait::RobotJoint& pivot = robot.joint("pivot");
   const double amplitude = 0.3;
   robot.set_position(pivot, amplitude);
   robot.update_poses();
@@ -195,6 +198,27 @@ TEST(RobotModel, InnerTorquesMoveABodyInSpaceButNotTheCentreOfMass) {
   EXPECT_LT(farthest, 1e-3);
 }
 
+TEST(RobotModel, AgreesWithTheLegModelAboutTheWeightOfALeg) {
+  const Eigen::Vector3d kAngles(0.12, 0.7, 1.4);
+  BulletScene scene(kTimeStep);
+  RobotModel robot(scene, robot_urdf(), RobotModel::Base::kFloating, [](const std::string&) {
+    return RobotSurface{"", {0, 0}, 0.5, 1e5, 1e3};
+  });
+  const v60_gait::LegModel leg(robot.tree(), "rr");
+  int i = 0;
+  for (const char* joint : {"rr_abduction", "rr_hip", "rr_knee"}) {
+    robot.set_position(robot.joint(joint), kAngles[i++]);
+  }
+  robot.update_poses();
+  const Eigen::Vector3d torques =
+      leg.weight_torques(kAngles, Eigen::Vector3d(0.0, 0.0, -v60_gait::kGravity));
+  const Eigen::VectorXd gravity = robot.gravity_torques();
+  i = 0;
+  for (const char* joint : {"rr_abduction", "rr_hip", "rr_knee"}) {
+    EXPECT_NEAR(torques[i++], -gravity[robot.joint(joint).body - 1], 1e-10) << joint;
+  }
+}
+
 TEST(RobotModel, PositionLimitStopsAJoint) {
   TwoLinks two;
   two.pose(2.9, 0.0);
@@ -206,9 +230,9 @@ TEST(RobotModel, PositionLimitStopsAJoint) {
 }
 
 TEST(RobotModel, FixedPartsCountWithMassAndInertia) {
-  const RigidTree tree = rigid_tree_from_urdf(two_link_robot(), true);
+  const v60_gait::RigidTree tree = v60_gait::rigid_tree_from_urdf(two_link_robot(), true);
   ASSERT_EQ(tree.bodies.size(), 3u);
-  const RigidBody& lower = tree.bodies[2];
+  const v60_gait::RigidBody& lower = tree.bodies[2];
   EXPECT_DOUBLE_EQ(lower.mass, 1.5);
   const Eigen::Isometry3d weight = transform(0.05, 0, -0.4, 0.2, 0.3, 0.4);
   const Eigen::Vector3d first(0, 0.03, -0.2);
@@ -229,9 +253,9 @@ TEST(RobotModel, RefusesRobotsThatCannotBeSimulated) {
            "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>";
   };
   const auto refuses = [](const std::string& urdf) {
-    EXPECT_THROW((void)rigid_tree_from_urdf(urdf, true), std::invalid_argument) << urdf;
+    EXPECT_THROW((void)v60_gait::rigid_tree_from_urdf(urdf, true), std::invalid_argument) << urdf;
   };
-  EXPECT_NO_THROW((void)rigid_tree_from_urdf(robot(solid, "revolute"), true));
+  EXPECT_NO_THROW((void)v60_gait::rigid_tree_from_urdf(robot(solid, "revolute"), true));
   refuses("");
   refuses("no xml");
   refuses("<robot name='r'></robot>");
@@ -245,7 +269,8 @@ TEST(RobotModel, RefusesRobotsThatCannotBeSimulated) {
   refuses(robot(solid, "prismatic"));
   refuses(robot(solid + "<collision><geometry><mesh filename='a.stl'/></geometry></collision>",
                 "revolute"));
-  EXPECT_THROW((void)rigid_tree_from_urdf(two_link_robot(), false), std::invalid_argument);
+  EXPECT_THROW((void)v60_gait::rigid_tree_from_urdf(two_link_robot(), false),
+               std::invalid_argument);
 }
 
 }  // namespace

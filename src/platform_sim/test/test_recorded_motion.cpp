@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "body_motion.hpp"
 #include "files.hpp"
+#include "motion/body_motion.hpp"
 
 namespace platform_sim {
 namespace {

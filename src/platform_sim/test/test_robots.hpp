@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "multibody_from_urdf.hpp"
+#include "physics/multibody_from_urdf.hpp"
 
 namespace platform_sim {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "camera_sim/target_box.hpp"
 #include "platform_sim/contacts.hpp"
 #include "platform_sim/frame_state.hpp"
-#include "platform_sim/target_box.hpp"
 #include "platform_sim/world_config.hpp"
 
 namespace platform_sim {
@@ -49,7 +49,7 @@ class World {
   [[nodiscard]] FrameState platform() const;
   [[nodiscard]] FrameState carrier() const;  ///< of the box: platform() or the cart
   [[nodiscard]] FrameState tag() const;
-  [[nodiscard]] const TargetBox& target() const;
+  [[nodiscard]] const camera_sim::TargetBox& target() const;
 
   /// Contacts since the last call, one per pair of links, in alphabetical order.
   [[nodiscard]] std::vector<Contact> take_contacts();

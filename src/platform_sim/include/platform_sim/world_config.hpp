@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform_sim/target_box.hpp"
+#include "camera_sim/target_box.hpp"
 
 namespace platform_sim {
 
@@ -33,11 +33,11 @@ struct WorldConfig {
   ArmVector arm_start = ArmVector::Zero();  ///< rad
   double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
   double arm_latency = 0.02;                ///< s, from a command to the arm's servos
-  TargetBox target;
+  camera_sim::TargetBox target;
 
   [[nodiscard]] static const std::vector<std::string>& scenario_names();
   /// The target as the scenario places it.
-  [[nodiscard]] TargetBox placed_target() const;
+  [[nodiscard]] camera_sim::TargetBox placed_target() const;
   /// Throws std::invalid_argument with name, value and bound.
   void validate() const;
 };

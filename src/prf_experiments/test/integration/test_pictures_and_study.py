@@ -17,7 +17,7 @@ class Pictures(unittest.TestCase):
             for words, why in ((["absent.bag", folder + "/a.webp"], "absent.bag"),
                                (["absent.bag", folder + "/a.avi"], "must end with"),
                                (["absent.bag", folder + "/a.gif", "--rate", "99"], "--rate")):
-                done = run("platform_sim", "scene_animation", *words)
+                done = run("scene_drawing", "scene_animation", *words)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(why, done.stderr)
                 self.assertEqual(os.listdir(folder), [])

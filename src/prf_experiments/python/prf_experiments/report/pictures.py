@@ -49,7 +49,7 @@ def _embedded(path, text):
 def key_frames(bag, data, figures):
     """HTML of the scene at the trial's moments."""
     urdf = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")[0]
-    program = processes.executable("platform_sim", "scene_picture")
+    program = processes.executable("scene_drawing", "scene_picture")
     first = 1e-9 * data.start
     parts = []
     with tempfile.TemporaryDirectory() as folder:
@@ -67,7 +67,7 @@ def animation(bag):
     """HTML of the whole trial as an animation."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "trial.webp")
-        _run([processes.executable("platform_sim", "scene_animation"), bag, out, *ANIMATION])
+        _run([processes.executable("scene_drawing", "scene_animation"), bag, out, *ANIMATION])
         return _embedded(out, "the whole trial, shortened to 8 s")
 
 

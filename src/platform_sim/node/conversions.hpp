@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Core types to messages and back.
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <prf_msgs/ContactArray.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/image_encodings.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include <algorithm>
+#include <opencv2/core/mat.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "camera_sim/camera_renderer.hpp"
+#include "platform_sim/world.hpp"
+
+namespace platform_sim {
+
+inline ros::Time to_stamp(std::int64_t milliseconds) {
+  return ros::Time(static_cast<std::uint32_t>(milliseconds / 1000),
+                   static_cast<std::uint32_t>(milliseconds % 1000 * 1'000'000));
+}
+
+inline std::int64_t to_ns(const ros::Time& stamp) {
+  return static_cast<std::int64_t>(stamp.toNSec());
+}
+
+inline geometry_msgs::Point to_point(const Eigen::Vector3d& vector) {
+  geometry_msgs::Point point;
+  point.x = vector.x();
+  point.y = vector.y();
+  point.z = vector.z();
+  return point;
+}
+
+inline geometry_msgs::Vector3 to_vector3(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+inline Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& message) {
+  return {message.x, message.y, message.z};
+}
+
+inline geometry_msgs::Pose to_pose(const Eigen::Isometry3d& pose) {
+  geometry_msgs::Pose message;
+  message.position = to_point(pose.translation());
+  const Eigen::Quaterniond rotation(pose.linear());
+  message.orientation.x = rotation.x();
+  message.orientation.y = rotation.y();
+  message.orientation.z = rotation.z();
+  message.orientation.w = rotation.w();
+  return message;
+}
+
+inline geometry_msgs::PoseStamped to_pose_stamped(const std_msgs::Header& header,
+                                                  const Eigen::Isometry3d& pose) {
+  geometry_msgs::PoseStamped message;
+  message.header = header;
+  message.pose = to_pose(pose);
+  return message;
+}
+
+// nav_msgs: the pose is in header.frame_id, the twist in child_frame_id.
+inline nav_msgs::Odometry to_odometry(const std_msgs::Header& header, const std::string& child,
+                                      const FrameState& state) {
+  nav_msgs::Odometry message;
+  message.header = header;
+  message.child_frame_id = child;
+  message.pose.pose = to_pose(state.pose);
+  const Eigen::Matrix3d world_to_child = state.pose.linear().transpose();
+  message.twist.twist.linear = to_vector3(world_to_child * state.linear);
+  message.twist.twist.angular = to_vector3(world_to_child * state.angular);
+  return message;
+}
+
+inline prf_msgs::ContactArray to_contact_array(const std_msgs::Header& header,
+                                               const std::vector<Contact>& contacts) {
+  prf_msgs::ContactArray message;
+  message.header = header;
+  for (const Contact& contact : contacts) {
+    prf_msgs::Contact& entry = message.contacts.emplace_back();
+    entry.link_a = contact.link_a;
+    entry.link_b = contact.link_b;
+    entry.force = contact.force;
+    entry.position = to_point(contact.position);
+  }
+  return message;
+}
+
+inline sensor_msgs::JointState to_joint_state(const ros::Time& stamp,
+                                              const std::vector<std::string>& names,
+                                              const JointStates& joints) {
+  const auto to_vector = [](const Eigen::VectorXd& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  message.name = names;
+  message.position = to_vector(joints.positions);
+  message.velocity = to_vector(joints.velocities);
+  message.effort = to_vector(joints.efforts);
+  return message;
+}
+
+inline sensor_msgs::Image to_image(const std_msgs::Header& header, const cv::Mat& mono8) {
+  sensor_msgs::Image message;
+  message.header = header;
+  message.height = static_cast<std::uint32_t>(mono8.rows);
+  message.width = static_cast<std::uint32_t>(mono8.cols);
+  message.step = message.width;
+  message.encoding = sensor_msgs::image_encodings::MONO8;
+  message.data.assign(mono8.datastart, mono8.dataend);
+  return message;
+}
+
+inline sensor_msgs::CameraInfo to_camera_info(const camera_sim::PinholeCamera& camera) {
+  sensor_msgs::CameraInfo message;
+  message.height = static_cast<std::uint32_t>(camera.height);
+  message.width = static_cast<std::uint32_t>(camera.width);
+  message.distortion_model = "plumb_bob";
+  message.D.assign(camera.distortion.begin(), camera.distortion.end());
+  message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  message.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return message;
+}
+
+struct ArmCommand {
+  ArmVector positions = ArmVector::Zero();   // rad
+  ArmVector velocities = ArmVector::Zero();  // rad/s
+};
+
+// Throws std::invalid_argument that says why the command is refused.
+inline ArmCommand to_arm_command(const trajectory_msgs::JointTrajectory& message) {
+  if (message.joint_names.size() != 7) {
+    throw std::invalid_argument(std::to_string(message.joint_names.size()) +
+                                " joint names, must be 7");
+  }
+  if (message.points.size() != 1 || message.points[0].positions.size() != 7 ||
+      message.points[0].velocities.size() != 7) {
+    throw std::invalid_argument("must have one point of 7 positions and 7 velocities");
+  }
+  ArmCommand command;
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "j2s7s300_joint_" + std::to_string(i + 1);
+    const auto found = std::find(message.joint_names.begin(), message.joint_names.end(), name);
+    if (found == message.joint_names.end()) throw std::invalid_argument(name + " is not named");
+    const auto index = static_cast<std::size_t>(found - message.joint_names.begin());
+    command.positions[i] = message.points[0].positions[index];
+    command.velocities[i] = message.points[0].velocities[index];
+  }
+  if (!command.positions.allFinite()) throw std::invalid_argument("a position is not finite");
+  if (!command.velocities.allFinite()) throw std::invalid_argument("a velocity is not finite");
+  return command;
+}
+
+struct HandWrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N, in world
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // Nm, in world
+};
+
+// Throws std::invalid_argument that says why the wrench is refused.
+inline HandWrench to_hand_wrench(const geometry_msgs::WrenchStamped& message) {
+  if (message.header.frame_id != "world") {
+    throw std::invalid_argument("frame_id = '" + message.header.frame_id + "', must be world");
+  }
+  const HandWrench wrench{to_eigen(message.wrench.force), to_eigen(message.wrench.torque)};
+  if (!wrench.force.allFinite()) throw std::invalid_argument("the force is not finite");
+  if (!wrench.torque.allFinite()) throw std::invalid_argument("the torque is not finite");
+  return wrench;
+}
+
+}  // namespace platform_sim

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <prf_ros/private_parameters.hpp>
+
+#include "camera_sim/hand_camera.hpp"
+#include "platform_sim/world.hpp"
+
+namespace platform_sim {
+
+// The node's parameters; config/platform_sim.yaml says what each means.
+struct SimParameters {
+  WorldConfig world;
+  std::string variation;  // what the seed drew, in words
+  camera_sim::HandCameraConfig camera;
+  bool lockstep = true;
+  bool paused = false;
+  double answer_timeout = 0.0;    // s, wall time
+  double real_time_factor = 0.0;  // 0: none in lockstep, 1 otherwise
+  double time_limit = 0.0;        // s
+  double end_delay = 0.0;         // s
+};
+
+// Throws std::invalid_argument with name, value and bound.
+[[nodiscard]] SimParameters read_parameters(prf_ros::PrivateParameters values);
+
+}  // namespace platform_sim

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "publishers.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include "conversions.hpp"
+
+namespace platform_sim {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 1000;
+// 10 s, 92 MB: lockstep does not wait for a recorder that a busy machine holds up.
+constexpr std::uint32_t kImageQueueSize = 300;
+const std::string kOpticalFrame = "camera_optical_frame";
+const std::string kEndEffector = "j2s7s300_end_effector";
+
+std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = to_stamp(now_ms);
+  header.frame_id = frame;
+  return header;
+}
+
+}  // namespace
+
+SimPublishers::SimPublishers(ros::NodeHandle& node)
+    : clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
+      image_(node.advertise<sensor_msgs::Image>("camera/image_raw", kImageQueueSize)),
+      camera_info_(node.advertise<sensor_msgs::CameraInfo>("camera/camera_info", kQueueSize)),
+      joint_states_(node.advertise<sensor_msgs::JointState>("joint_states", kQueueSize)),
+      diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
+      platform_(node.advertise<nav_msgs::Odometry>("ground_truth/platform", kQueueSize)),
+      base_(node.advertise<nav_msgs::Odometry>("ground_truth/base", kQueueSize)),
+      tag_(node.advertise<geometry_msgs::PoseStamped>("ground_truth/tag", kQueueSize)),
+      camera_(node.advertise<geometry_msgs::PoseStamped>("ground_truth/camera", kQueueSize)),
+      end_effector_(
+          node.advertise<geometry_msgs::PoseStamped>("ground_truth/end_effector", kQueueSize)),
+      contacts_(node.advertise<prf_msgs::ContactArray>("ground_truth/contacts", kQueueSize)) {}
+
+void SimPublishers::publish_clock(std::int64_t now_ms) {
+  rosgraph_msgs::Clock message;
+  message.clock = to_stamp(now_ms);
+  clock_.publish(message);
+}
+
+void SimPublishers::publish_image(std::int64_t stamp_ms, const cv::Mat& image,
+                                  const camera_sim::PinholeCamera& camera) {
+  const std_msgs::Header header = header_at(stamp_ms, kOpticalFrame);
+  sensor_msgs::CameraInfo info = to_camera_info(camera);
+  info.header = header;
+  camera_info_.publish(info);
+  image_.publish(to_image(header, image));
+}
+
+void SimPublishers::publish_ground_truth(std::int64_t now_ms, World& world) {
+  const std_msgs::Header header = header_at(now_ms, "world");
+  const std::string ground = world.target().on_cart ? "floor" : "platform";
+  platform_.publish(to_odometry(header, ground, world.platform()));
+  base_.publish(to_odometry(header, "base_link", world.base()));
+  tag_.publish(to_pose_stamped(header, world.tag().pose));
+  camera_.publish(to_pose_stamped(header, world.frame(kOpticalFrame).pose));
+  end_effector_.publish(to_pose_stamped(header, world.frame(kEndEffector).pose));
+  contacts_.publish(to_contact_array(header, world.take_contacts()));
+}
+
+void SimPublishers::publish_joint_states(std::int64_t now_ms, const World& world) {
+  joint_states_.publish(to_joint_state(to_stamp(now_ms), world.joint_names(), world.joints()));
+}
+
+void SimPublishers::publish_diagnostics(std::int64_t now_ms, double real_time_factor,
+                                        double ticks_per_second, unsigned refused) {
+  const auto entry = [](const std::string& key, double value) {
+    diagnostic_msgs::KeyValue pair;
+    pair.key = key;
+    pair.value = std::to_string(value);
+    return pair;
+  };
+  diagnostic_msgs::DiagnosticArray message;
+  message.header = header_at(now_ms, "");
+  diagnostic_msgs::DiagnosticStatus& status = message.status.emplace_back();
+  status.level = refused == 0 ? diagnostic_msgs::DiagnosticStatus::OK
+                              : diagnostic_msgs::DiagnosticStatus::WARN;
+  status.name = "platform_sim: lockstep";
+  status.message = refused == 0 ? "running" : "commands were refused";
+  status.values = {entry("real_time_factor", real_time_factor),
+                   entry("ticks_per_wall_second", ticks_per_second),
+                   entry("refused_commands", refused)};
+  diagnostics_.publish(message);
+}
+
+unsigned SimPublishers::subscribers() const {
+  unsigned count = 0;
+  for (const ros::Publisher* publisher :
+       {&clock_, &image_, &camera_info_, &joint_states_, &platform_, &base_, &tag_, &camera_,
+        &end_effector_, &contacts_}) {
+    count += publisher->getNumSubscribers();
+  }
+  return count;
+}
+
+std::vector<std::string> SimPublishers::without_subscriber(bool camera_too) const {
+  std::vector<std::string> names;
+  if (joint_states_.getNumSubscribers() == 0) names.push_back(joint_states_.getTopic());
+  if (camera_too && image_.getNumSubscribers() == 0) names.push_back(image_.getTopic());
+  return names;
+}
+
+}  // namespace platform_sim

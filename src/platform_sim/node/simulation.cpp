@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation.hpp"
+
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace platform_sim {
+namespace {
+
+constexpr std::int64_t kTickMs =
+    10;                             // control period; the first tick is one period after the start
+constexpr double kFallDelay = 1.0;  // s
+constexpr double kSettledConnections = 0.5;  // s of wall time without a new one
+constexpr double kReportPeriod = 1.0;        // s of wall time
+const ros::WallDuration kSpin(0.01);
+const ros::WallDuration kLastMessages(0.5);  // for what is still under way when the run ends
+
+void spin(const ros::WallDuration& longest) {
+  ros::getGlobalCallbackQueue()->callAvailable(longest);
+}
+
+double seconds(std::int64_t milliseconds) { return 1e-3 * static_cast<double>(milliseconds); }
+
+StampNs nanoseconds(std::int64_t milliseconds) { return 1'000'000 * milliseconds; }
+
+double seconds_since(const ros::WallTime& begin) { return (ros::WallTime::now() - begin).toSec(); }
+
+Peer peer_of(const SimParameters& params) {
+  return params.world.arm_mode == ArmMode::kServo ? Peer::kFramework : Peer::kGuide;
+}
+
+World make_world(const std::string& urdf, const WorldConfig& config) {
+  try {
+    return World(urdf, config);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("robot_description or initial_positions: ") +
+                                error.what());
+  }
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
+                       const SimParameters& params, const std::string& urdf)
+    : params_(params),
+      world_(make_world(urdf, params.world)),
+      camera_(urdf, world_.target(), params.camera),
+      schedule_(params.camera.timing, kTickMs),
+      publishers_(node),
+      answers_(node, peer_of(params)),
+      start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
+      started_(!params.paused) {
+  ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
+}
+
+Simulation::Outcome Simulation::run() {
+  Outcome outcome = wait_for_start();
+  if (outcome != Outcome::kEnded) return outcome;
+  begin_ = last_report_ = ros::WallTime::now();
+  while (!at_end()) {
+    simulate_tick();
+    publish_tick();
+    for (Image& image : images_) render(image);  // while the framework is busy
+    outcome = wait_for_answers();
+    if (outcome != Outcome::kEnded) break;
+    apply_answers();
+    keep_pace();
+    report_rate();
+  }
+  report_end();
+  if (ros::ok()) kLastMessages.sleep();
+  return outcome;
+}
+
+bool Simulation::on_start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = static_cast<unsigned char>(!started_);
+  response.message = started_ ? "already started" : "starting";
+  started_ = true;
+  return true;
+}
+
+Simulation::Outcome Simulation::wait_for_start() {
+  const ros::WallTime begin = ros::WallTime::now();
+  if (!started_)
+    ROS_INFO("paused until the service %s is called", start_service_.getService().c_str());
+  while (!started_ && ros::ok()) spin(kSpin);
+  const Outcome outcome = params_.lockstep ? wait_for_connections() : Outcome::kEnded;
+  if (!ros::ok()) return Outcome::kInterrupted;
+  if (outcome == Outcome::kEnded) {
+    ROS_INFO(
+        "starting after %.1f s of waiting: scenario %s, motion %s, gait %s, seed %lu, lockstep %s",
+        seconds_since(begin), params_.world.scenario.c_str(), params_.world.motion.c_str(),
+        params_.world.gait.c_str(), params_.world.seed, params_.lockstep ? "on" : "off");
+  }
+  return outcome;
+}
+
+Simulation::Outcome Simulation::wait_for_connections() {
+  const bool camera_too = peer_of(params_) == Peer::kFramework;
+  const ros::WallTime begin = ros::WallTime::now();
+  ros::WallTime changed = begin;
+  unsigned connections = 0;
+  while (ros::ok()) {
+    const unsigned count = publishers_.subscribers() + answers_.publishers();
+    if (count != connections) changed = ros::WallTime::now();
+    connections = count;
+    const std::vector<std::string> unheard = publishers_.without_subscriber(camera_too);
+    const std::vector<std::string> unspoken = answers_.without_publisher();
+    const bool complete = unheard.empty() && unspoken.empty();
+    if (complete && seconds_since(changed) > kSettledConnections) return Outcome::kEnded;
+    if (!complete && seconds_since(begin) > params_.answer_timeout) {
+      ROS_FATAL(
+          "not connected within %.1f s of wall time; topics without publisher: %s; without "
+          "subscriber: %s",
+          params_.answer_timeout, joined(unspoken).c_str(), joined(unheard).c_str());
+      return Outcome::kSilent;
+    }
+    spin(kSpin);
+  }
+  return Outcome::kInterrupted;
+}
+
+void Simulation::simulate_tick() {
+  const ros::WallTime begin = ros::WallTime::now();
+  for (std::int64_t i = 0; i < kTickMs; ++i) {
+    world_.step();
+    ++now_ms_;
+    if (schedule_.captures_at(now_ms_)) {
+      schedule_.capture(now_ms_, {world_.frame("camera_optical_frame").pose, world_.platform().pose,
+                                  world_.carrier().pose});
+    }
+  }
+  physics_ += ros::WallTime::now() - begin;
+}
+
+// joint_states comes last: it is what the framework answers.
+void Simulation::publish_tick() {
+  while (std::optional<camera_sim::Frame> frame = schedule_.take_exposed())
+    images_.push_back({*frame, {}});
+  publishers_.publish_clock(now_ms_);
+  while (!images_.empty() && schedule_.is_due(images_.front().frame, now_ms_)) {
+    Image& image = images_.front();
+    render(image);
+    if (!image.pixels.empty()) {
+      publishers_.publish_image(image.frame.stamp_ms, image.pixels, camera_.optics());
+      answers_.lockstep().published_image(nanoseconds(image.frame.stamp_ms));
+    }
+    images_.pop_front();
+  }
+  publishers_.publish_ground_truth(now_ms_, world_);
+  publishers_.publish_joint_states(now_ms_, world_);
+  answers_.lockstep().published_joint_states(nanoseconds(now_ms_));
+}
+
+void Simulation::render(Image& image) {
+  if (!image.pixels.empty() || !publishers_.image_is_wanted()) return;
+  const ros::WallTime begin = ros::WallTime::now();
+  image.pixels = camera_.image(image.frame);
+  rendering_ += ros::WallTime::now() - begin;
+}
+
+Simulation::Outcome Simulation::wait_for_answers() {
+  const ros::WallTime begin = ros::WallTime::now();
+  spin(ros::WallDuration(0.0));
+  while (params_.lockstep && !answers_.lockstep().answered()) {
+    if (!ros::ok()) return Outcome::kInterrupted;
+    if (seconds_since(begin) > params_.answer_timeout) {
+      const SilentTopic silent = *answers_.lockstep().first_silent();
+      ROS_FATAL("%s is silent: no answer stamped %.3f s at tick %.3f s within %.1f s of wall time",
+                topic_name(silent.link), 1e-9 * static_cast<double>(silent.stamp), seconds(now_ms_),
+                params_.answer_timeout);
+      return Outcome::kSilent;
+    }
+    spin(kSpin);
+  }
+  waiting_ += ros::WallTime::now() - begin;
+  return ros::ok() ? Outcome::kEnded : Outcome::kInterrupted;
+}
+
+void Simulation::apply_answers() {
+  if (const auto command = answers_.take_command()) {
+    world_.command_arm(command->positions, command->velocities);
+  }
+  if (const auto wrench = answers_.take_wrench()) {
+    world_.apply_hand_wrench(wrench->force, wrench->torque);
+  }
+}
+
+void Simulation::keep_pace() {
+  const double cap =
+      params_.real_time_factor > 0.0 || params_.lockstep ? params_.real_time_factor : 1.0;
+  if (cap <= 0.0) return;
+  const ros::WallTime due = begin_ + ros::WallDuration(seconds(now_ms_) / cap);
+  for (ros::WallTime now = ros::WallTime::now(); now < due && ros::ok();
+       now = ros::WallTime::now()) {
+    spin(std::min(due - now, kSpin));
+  }
+}
+
+bool Simulation::at_end() {
+  const auto end_after = [this](double delay) {
+    const std::int64_t end = now_ms_ + std::llround(1000.0 * delay);
+    end_ms_ = std::min(end, end_ms_.value_or(end));
+  };
+  if (answers_.finished() && !finished_) end_after(params_.end_delay);
+  finished_ = answers_.finished();
+  if (world_.fallen() && !fallen_) {
+    const FrameState base = world_.base();
+    const double tilt = std::acos(std::clamp(base.pose.linear()(2, 2), -1.0, 1.0));
+    ROS_WARN("the robot fell at %.3f s: base %.2f m above the deck's centre, tilted by %.2f rad",
+             seconds(now_ms_),
+             base.pose.translation().z() - world_.platform().pose.translation().z(), tilt);
+    end_after(kFallDelay);
+  }
+  fallen_ = world_.fallen();
+  return seconds(now_ms_) >= params_.time_limit || now_ms_ >= end_ms_.value_or(now_ms_ + 1);
+}
+
+void Simulation::report_rate() {
+  const ros::WallDuration since = ros::WallTime::now() - last_report_;
+  if (since.toSec() < kReportPeriod) return;
+  const double factor = seconds(now_ms_ - last_report_ms_) / since.toSec();
+  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, answers_.refused());
+  last_report_ = ros::WallTime::now();
+  last_report_ms_ = now_ms_;
+}
+
+void Simulation::report_end() const {
+  const double wall = std::max(1e-9, seconds_since(begin_));
+  ROS_INFO(
+      "%.2f s simulated in %.2f s, real-time factor %.2f; physics %.0f %%, rendering %.0f %%, "
+      "waiting for answers %.0f %%",
+      seconds(now_ms_), wall, seconds(now_ms_) / wall, 100.0 * physics_.toSec() / wall,
+      100.0 * rendering_.toSec() / wall, 100.0 * waiting_.toSec() / wall);
+}
+
+}  // namespace platform_sim

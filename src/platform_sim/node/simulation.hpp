@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/time.h>
+#include <std_srvs/Trigger.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "camera_sim/camera_schedule.hpp"
+#include "camera_sim/hand_camera.hpp"
+#include "params.hpp"
+#include "platform_sim/world.hpp"
+#include "publishers.hpp"
+#include "responses.hpp"
+
+namespace platform_sim {
+
+// Advances the world tick by tick, in lockstep with whoever moves the arm.
+class Simulation {
+ public:
+  enum class Outcome { kEnded, kInterrupted, kSilent };
+
+  Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node, const SimParameters& params,
+             const std::string& urdf);
+
+  Outcome run();
+
+ private:
+  struct Image {
+    camera_sim::Frame frame;
+    cv::Mat pixels;  // empty when nobody wanted it
+  };
+
+  bool on_start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  Outcome wait_for_start();
+  Outcome wait_for_connections();
+  Outcome wait_for_answers();
+  void simulate_tick();
+  void publish_tick();
+  void render(Image& image);
+  void apply_answers();
+  void keep_pace();
+  [[nodiscard]] bool at_end();
+  void report_rate();
+  void report_end() const;
+
+  SimParameters params_;
+  World world_;
+  camera_sim::HandCamera camera_;
+  camera_sim::CameraSchedule schedule_;
+  std::deque<Image> images_;  // exposed, latency not yet over
+  SimPublishers publishers_;
+  Answers answers_;
+  ros::ServiceServer start_service_;
+  bool started_;
+  std::int64_t now_ms_ = 0;
+  std::optional<std::int64_t> end_ms_;
+  bool finished_ = false;
+  bool fallen_ = false;
+  ros::WallTime begin_, last_report_;
+  std::int64_t last_report_ms_ = 0;
+  ros::WallDuration physics_, rendering_, waiting_;
+};
+
+}  // namespace platform_sim

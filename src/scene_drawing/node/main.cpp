@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shows a person what stands around the robot: markers in base_link for rviz, from the ground
+// truth.
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <optional>
+#include <prf_ros/conversions.hpp>
+
+#include "camera_sim/target_box.hpp"
+
+namespace scene_drawing {
+namespace {
+
+constexpr int kEvery = 5;  // ticks: 20 Hz
+
+class SceneMarkers {
+ public:
+  explicit SceneMarkers(ros::NodeHandle node)
+      : publisher_(node.advertise<visualization_msgs::MarkerArray>("scene_markers", 10)) {
+    subscribers_ = {node.subscribe("ground_truth/platform", 100, &SceneMarkers::on_odometry, this),
+                    node.subscribe("ground_truth/base", 100, &SceneMarkers::on_odometry, this),
+                    node.subscribe("ground_truth/tag", 100, &SceneMarkers::on_tag, this)};
+  }
+
+ private:
+  struct Tick {
+    std::optional<Eigen::Isometry3d> platform, base, tag;
+  };
+
+  void on_odometry(const nav_msgs::OdometryConstPtr& message) {
+    const bool is_base = message->child_frame_id == "base_link";
+    if (!is_base) target_.on_cart = message->child_frame_id == "floor";
+    Tick& tick = ticks_[message->header.stamp];
+    (is_base ? tick.base : tick.platform) = prf_ros::to_core(message->pose.pose).isometry();
+    show(message->header.stamp);
+  }
+
+  void on_tag(const geometry_msgs::PoseStampedConstPtr& message) {
+    ticks_[message->header.stamp].tag = prf_ros::to_core(message->pose).isometry();
+    show(message->header.stamp);
+  }
+
+  void show(const ros::Time& stamp) {
+    const Tick tick = ticks_[stamp];
+    if (!tick.platform || !tick.base || !tick.tag) return;
+    ticks_.erase(ticks_.begin(), ticks_.upper_bound(stamp));
+    if (stamp < last_) known_ = false;  // a new run
+    last_ = stamp;
+    // What carries the box starts where the platform is.
+    if (!known_) target_.place_tag(tick.platform->inverse() * *tick.tag);
+    known_ = true;
+    if (count_++ % kEvery != 0) return;
+    const Eigen::Isometry3d to_base = tick.base->inverse();
+    publisher_.publish(markers(stamp, to_base * *tick.platform,
+                               to_base * *tick.tag * target_.tag_in_platform().inverse()));
+  }
+
+  [[nodiscard]] visualization_msgs::MarkerArray markers(const ros::Time& stamp,
+                                                        const Eigen::Isometry3d& platform,
+                                                        const Eigen::Isometry3d& carrier) const {
+    visualization_msgs::MarkerArray array;
+    const auto add = [&](const Eigen::Isometry3d& frame, const camera_sim::Cuboid& cuboid,
+                         float red, float green, float blue) {
+      visualization_msgs::Marker& marker = array.markers.emplace_back();
+      marker.header.stamp = stamp;
+      marker.header.frame_id = "base_link";
+      marker.ns = "scene";
+      marker.id = static_cast<int>(array.markers.size());
+      marker.type = visualization_msgs::Marker::CUBE;
+      marker.pose = prf_ros::to_message(prf_core::pose_from(frame * cuboid.pose_in_platform));
+      marker.scale = prf_ros::to_vector3(cuboid.size);
+      marker.color.r = red;
+      marker.color.g = green;
+      marker.color.b = blue;
+      marker.color.a = 1.0F;
+    };
+    add(platform, camera_sim::deck(), 0.50F, 0.53F, 0.57F);
+    for (const camera_sim::Cuboid& wall : target_.walls()) add(carrier, wall, 0.87F, 0.72F, 0.48F);
+    for (const camera_sim::Cuboid& part : target_.support())
+      add(carrier, part, 0.45F, 0.50F, 0.60F);
+    for (const double size : {1.25, 1.0}) {  // paper and ink
+      camera_sim::Cuboid tag;
+      tag.pose_in_platform = target_.tag_in_platform();
+      tag.size =
+          Eigen::Vector3d(size * target_.tag_size, size * target_.tag_size, 3e-3 - 1e-3 * size);
+      const float grey = size > 1.0 ? 0.95F : 0.1F;
+      add(carrier, tag, grey, grey, grey);
+    }
+    return array;
+  }
+
+  camera_sim::TargetBox target_;
+  std::map<ros::Time, Tick> ticks_;
+  ros::Time last_;
+  bool known_ = false;
+  std::size_t count_ = 0;
+  ros::Publisher publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace
+}  // namespace scene_drawing
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "scene_markers");
+  const scene_drawing::SceneMarkers markers{ros::NodeHandle()};
+  ros::spin();
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace v60_gait {
+
+/// Order: fl, fr, rl, rr; within a leg abduction, hip, knee.
+using LegVector = Eigen::Matrix<double, 12, 1>;
+
+/// All that a leg controller may know: encoders, inertial unit and the operator's stick.
+struct LegObservation {
+  double time = 0.0;                                             ///< s
+  LegVector positions = LegVector::Zero();                       ///< rad
+  LegVector velocities = LegVector::Zero();                      ///< rad/s
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< base_link in world
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    ///< rad/s, in base_link
+  Eigen::Vector3d stick = Eigen::Vector3d::Zero();  ///< wanted velocity over the deck: m/s ahead,
+                                                    ///< m/s to the left, rad/s of yaw
+};
+
+/// Locomotion controller of the quadruped, called at every physics step. It knows nothing of the
+/// arm, the platform or the task.
+class LegController {
+ public:
+  virtual ~LegController() = default;
+  /// Joint torques, Nm, before the limits of the motors.
+  [[nodiscard]] virtual LegVector torques(const LegObservation& observation) = 0;
+};
+
+}  // namespace v60_gait
