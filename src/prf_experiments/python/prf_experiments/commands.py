@@ -18,7 +18,13 @@ def _judged(bag):
         return None, judge.invalid(str(error))
 
 
-def judge_main(words):
+def _write_json(path, content):
+    with open(path, "w", encoding="utf-8") as stream:
+        json.dump(content, stream, indent=2)
+        stream.write("\n")
+
+
+def judge_main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="judge", description=judge.__doc__, epilog="Exit 0 for S, P and F, 3 for INVALID.",
         formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -29,9 +35,7 @@ def judge_main(words):
     def action():
         verdict = _judged(options.bag)[1]
         if options.json:
-            with open(options.json, "w", encoding="utf-8") as stream:
-                json.dump(verdict.as_json(), stream, indent=2)
-                stream.write("\n")
+            _write_json(options.json, verdict.as_json())
         print(f"{verdict.verdict}{' (inspected)' if verdict.inspected else ''}: {verdict.reason}")
         for name, value in verdict.figures.items():
             print(f"  {name}: {value:.4g}" if isinstance(value, float) else f"  {name}: {value}")
@@ -39,7 +43,7 @@ def judge_main(words):
     return session.guarded("judge", action)
 
 
-def inspect_main(words):
+def inspect_main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="inspect", description="Prints a trial as a timeline: phases and reasons, detections, "
         "contacts, what the arm could not do, solve times, drops.")
@@ -53,15 +57,13 @@ def inspect_main(words):
         if options.json:
             names = ("time_s", "off_axis_mm", "to_stand_off_mm", "event")
             lines = timeline.event_lines(data, verdict.figures)
-            with open(options.json, "w", encoding="utf-8") as stream:
-                json.dump([dict(zip(names, line)) for line in lines], stream, indent=2)
-                stream.write("\n")
+            _write_json(options.json, [dict(zip(names, line)) for line in lines])
         print(timeline.text(data, verdict), end="")
         return 0
     return session.guarded("inspect", action)
 
 
-def report_main(words):
+def report_main(words: list[str]) -> int:
     from prf_experiments.report import pictures, report  # matplotlib takes its time
     parser = argparse.ArgumentParser(prog="report", description="Draws the report of a trial.")
     parser.add_argument("bag")
@@ -83,22 +85,28 @@ def report_main(words):
     return session.guarded("report", action)
 
 
-def digest_main(words):
+def digest_main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="bag_digest", description=digest.__doc__,
         epilog="With two bags: exit 0 when they are identical, 1 when they are not.",
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bag")
     parser.add_argument("other", nargs="?", help="compares the two topic by topic")
+    parser.add_argument("--json", metavar="FILE", help="writes digests and differences there")
     options = parser.parse_args(words)
 
     def action():
         ours = digest.digests(options.bag)
-        if options.other is None:
+        differences = (digest.differences(ours, digest.digests(options.other))
+                       if options.other else None)
+        if options.json:
+            _write_json(options.json, {"differences": differences, "streams": [
+                {"topic": topic, "publisher": publisher, "messages_count": entry.messages,
+                 "sha256": entry.sha256} for (topic, publisher), entry in ours.items()]})
+        if differences is None:
             for (topic, publisher), entry in ours.items():
                 print(f"{entry.sha256} {entry.messages:7d} {topic} [{publisher}]")
             return 0
-        differences = digest.differences(ours, digest.digests(options.other))
         print("\n".join(differences) if differences else f"identical: {len(ours)} streams")
         return 1 if differences else 0
     return session.guarded("bag_digest", action)
