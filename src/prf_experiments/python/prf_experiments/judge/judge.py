@@ -20,6 +20,7 @@ import numpy as np
 
 from prf_experiments import geometry
 from prf_experiments.judge import target
+from prf_experiments.record.recording import Contact, Recording
 from prf_msgs import enums
 from prf_msgs.msg import ExecutionProgress
 
@@ -55,22 +56,22 @@ class Verdict:
     reason: str
     figures: dict = field(default_factory=dict)
 
-    def as_json(self):
+    def as_json(self) -> dict:
         return {"verdict": self.verdict, "inspected": self.inspected, "reason": self.reason,
                 "figures": self.figures}
 
 
-def invalid(reason):
+def invalid(reason: str) -> Verdict:
     return Verdict("INVALID", False, reason)
 
 
-def tag_in_camera(camera, tag):
+def tag_in_camera(camera: np.ndarray, tag: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Distance of the tag's centre from the optical axis and along it, (n,) and (n,) m."""
     position = geometry.compose(geometry.inverse(camera), tag)[:, :3]
     return np.hypot(position[:, 0], position[:, 1]), position[:, 2]
 
 
-def held(stamps, inside, hold):
+def held(stamps: np.ndarray, inside: np.ndarray, hold: int) -> int | None:
     """First stamp at which `inside` has lasted `hold` ns without a break, or None."""
     since = None
     for stamp, good in zip(stamps, inside):
@@ -80,7 +81,7 @@ def held(stamps, inside, hold):
     return None
 
 
-def longest_out_of_view(stamps, seen):
+def longest_out_of_view(stamps: np.ndarray, seen: np.ndarray) -> int:
     """Longest time in ns between two detections of the tag, or the last one and the last image."""
     if not np.any(seen):
         return 0
@@ -89,18 +90,18 @@ def longest_out_of_view(stamps, seen):
     return int(np.max(np.diff(detected)))
 
 
-def is_arm(link):
+def is_arm(link: str) -> bool:
     """Arm, hand or camera; the arm's base is bolted to the body and counts as body."""
     return link.startswith(("j2s7s300_", "camera")) and link != "j2s7s300_link_base"
 
 
-def arm_contacts(contacts):
+def arm_contacts(contacts: list[Contact]) -> list[Contact]:
     """Contacts of arm, hand or camera with anything that is not part of them."""
     return [contact for contact in contacts
             if is_arm(contact.links[0]) != is_arm(contact.links[1])]
 
 
-def strongest_by_pair(contacts):
+def strongest_by_pair(contacts: list[Contact]) -> dict[str, float]:
     strongest: dict[str, float] = {}
     for contact in contacts:
         pair = " | ".join(contact.links)
@@ -108,14 +109,14 @@ def strongest_by_pair(contacts):
     return strongest
 
 
-def posture(platform, base):
+def posture(platform: np.ndarray, base: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Height of the body above the deck, m, and its tilt against the deck, rad."""
     relative = geometry.compose(geometry.inverse(platform), base)
     up = geometry.rotation(relative).apply([0.0, 0.0, 1.0])
     return relative[:, 2], np.arccos(np.clip(up[:, 2], -1.0, 1.0))
 
 
-def defect(recording):
+def defect(recording: Recording) -> str:
     """Why the recording is no evidence, or an empty string."""
     if len(recording.ticks) < 2:
         return "no two ticks of joint_states were recorded"
@@ -150,7 +151,7 @@ def defect(recording):
     return ""
 
 
-def distances(recording):
+def distances(recording: Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Stamps that camera and tag share, with the tag's distance off the axis and along it, m."""
     stamps, at_camera, at_tag = np.intersect1d(recording.camera.stamps, recording.tag.stamps,
                                                return_indices=True)
@@ -183,7 +184,7 @@ def _lateral_statistics(recording, states, stamps, lateral):
     return 1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))
 
 
-def judge(recording):
+def judge(recording: Recording) -> Verdict:
     """Verdict of a complete recording."""
     broken = defect(recording)
     if broken:

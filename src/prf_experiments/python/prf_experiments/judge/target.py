@@ -8,30 +8,32 @@ from prf_experiments.record import recording
 SHOWN_HORIZON = 0.5  # s, of the forecasts that are compared with the truth
 
 
-def matched(first, second):
+def matched(first: recording.Poses,
+            second: recording.Poses) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Stamps that two pose series share, and the values of both there."""
     stamps, at_first, at_second = np.intersect1d(first.stamps, second.stamps, return_indices=True)
     return stamps, first.values[at_first], second.values[at_second]
 
 
-def relative_to(frame, poses):
+def relative_to(frame: np.ndarray, poses: np.ndarray) -> np.ndarray:
     """Positions (n, 3) of poses in a frame's poses, both (n, 7) in one parent."""
     return geometry.compose(geometry.inverse(frame), poses)[:, :3]
 
 
-def arm_base(data):
+def arm_base(data: recording.Recording) -> recording.Poses:
     """Poses of the arm's base in the world."""
     return recording.Poses(data.base.stamps,
                            geometry.compose(data.base.values, data.arm_base_in_body))
 
 
-def true(data):
+def true(data: recording.Recording) -> tuple[np.ndarray, np.ndarray]:
     """(stamps ns, positions (n, 3) m)."""
     stamps, base, tag = matched(arm_base(data), data.tag)
     return stamps, relative_to(base, tag)
 
 
-def forecast(data, horizon=SHOWN_HORIZON):
+def forecast(data: recording.Recording,
+             horizon: float = SHOWN_HORIZON) -> tuple[np.ndarray, np.ndarray, float]:
     """(stamps ns it was predicted for, positions (n, 3) m, the nearest horizon there is, s)."""
     forecasts = data.forecasts
     usable = [row for row, horizons in enumerate(forecasts.horizons) if len(horizons)]
@@ -45,7 +47,8 @@ def forecast(data, horizon=SHOWN_HORIZON):
             float(forecasts.horizons[usable[0]][column]))
 
 
-def errors(stamps, positions, truth):
+def errors(stamps: np.ndarray, positions: np.ndarray,
+           truth: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
     """Differences (n, 3) m from the truth at those stamps that it covers."""
     inside = (stamps >= truth[0][0]) & (stamps <= truth[0][-1])
     at = np.column_stack([np.interp(stamps[inside], truth[0], column) for column in truth[1].T])
@@ -53,7 +56,7 @@ def errors(stamps, positions, truth):
     return difference[np.all(np.isfinite(difference), axis=1)]
 
 
-def forecast_error(data):
+def forecast_error(data: recording.Recording) -> tuple[float, float | None]:
     """(horizon s, root mean square of the forecast's distance from the truth mm or None)."""
     stamps, positions, horizon = forecast(data)
     difference = errors(stamps, positions, true(data))

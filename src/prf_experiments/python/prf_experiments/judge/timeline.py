@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A trial as a list of events and a few figures: text for people without a display."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from prf_experiments.judge import judge
+from prf_experiments.record.recording import Recording
 from prf_msgs import enums
 from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
 
@@ -26,7 +28,7 @@ class Event:
     text: str
 
 
-def episodes(stamps, gap=GAP):
+def episodes(stamps: Sequence[int] | np.ndarray, gap: int = GAP) -> list[slice]:
     """Slices of rising `stamps` whose neighbours are at most `gap` apart."""
     if not len(stamps):
         return []
@@ -35,7 +37,7 @@ def episodes(stamps, gap=GAP):
     return [slice(first, last) for first, last in zip(edges, edges[1:])]
 
 
-def changes(values):
+def changes(values: Sequence[int] | np.ndarray) -> list[int]:
     """Rows at which a new value begins, the first one included."""
     return [0, *(int(row) + 1 for row in np.flatnonzero(np.diff(values)))] if len(values) else []
 
@@ -129,7 +131,7 @@ def _limited(data, events):
     return events
 
 
-def events(data, figures):
+def events(data: Recording, figures: dict) -> list[Event]:
     """All events in the order of time. `figures` are those of the verdict."""
     told = []
     for kind in (_phases(data), _detections(data), _forecasts(data), _plans(data), _control(data),
@@ -138,7 +140,7 @@ def events(data, figures):
     return sorted(told, key=lambda event: event.stamp)
 
 
-def event_lines(data, figures):
+def event_lines(data: Recording, figures: dict) -> list[tuple[float, float, float, str]]:
     """[(time s, mm off the axis, mm from the stand-off, text)] of every event."""
     stamps, lateral, along = judge.distances(data)
     lines = []
@@ -149,7 +151,7 @@ def event_lines(data, figures):
     return lines
 
 
-def phase_lines(data):
+def phase_lines(data: Recording) -> list[tuple[str, float, float, float, float]]:
     """[(phase, s spent, mean, standard deviation and largest mm off the axis)]."""
     stamps, lateral, _ = judge.distances(data)
     lines = []
@@ -162,13 +164,13 @@ def phase_lines(data):
     return lines
 
 
-def solve_times(data):
+def solve_times(data: Recording) -> np.ndarray:
     """Solve times that the planner's diagnostics told, µs; wall-clock, one sample a second."""
     told = data.diagnostics.get("skill_planner", {}).get("last solve time, us", [])
     return np.array([float(text) for text in told if float(text) > 0.0])
 
 
-def losses(data):
+def losses(data: Recording) -> list[tuple[str, str, int]]:
     """[(node, what, count)] of everything that a node's diagnostics count as lost or refused."""
     found = []
     for node, values in sorted(data.diagnostics.items()):
@@ -178,7 +180,7 @@ def losses(data):
     return found
 
 
-def text(data, verdict):
+def text(data: Recording, verdict: judge.Verdict) -> str:
     """The whole timeline, for a terminal of 100 columns or more."""
     inspected = " (inspected)" if verdict.inspected else ""
     lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", "",

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Transforms of a bag's tf, looked up at any stamp, as the framework saw them."""
+from collections.abc import Sequence
+
 import genpy
 import numpy as np
 import tf2_msgs.msg
@@ -10,7 +12,7 @@ from prf_experiments.record import recording
 HISTORY = 3600.0  # s, longer than any trial
 
 
-def load(path, publisher=None):
+def load(path: str, publisher: str | None = None) -> tf2_ros.BufferCore:
     """tf2 buffer with tf and tf_static of a bag; `publisher` restricts it to one node's."""
     buffer = tf2_ros.BufferCore(genpy.Duration.from_sec(HISTORY))
     with recording.open_bag(path) as bag:
@@ -26,7 +28,8 @@ def load(path, publisher=None):
     return buffer
 
 
-def lookup(buffer, parent, child, stamps):
+def lookup(buffer: tf2_ros.BufferCore, parent: str, child: str,
+           stamps: Sequence[int] | np.ndarray) -> np.ndarray:
     """Poses (n, 7) of child in parent at stamps in ns; NaN where tf cannot tell."""
     poses = np.full((len(stamps), 7), np.nan)
     for row, stamp in enumerate(stamps):

@@ -3,10 +3,12 @@
 import json
 import os
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import rosbag
 import rosgraph_msgs.msg
+from numpy.typing import ArrayLike
 
 from prf_experiments import geometry
 from prf_experiments.record import topics
@@ -95,25 +97,25 @@ class Recording:
     description: dict = field(default_factory=dict)
 
     @property
-    def start(self):
+    def start(self) -> int:
         return int(self.ticks[0])
 
-    def seconds(self, stamps):
+    def seconds(self, stamps: ArrayLike) -> np.ndarray:
         """Time since the first tick, s."""
         return (np.asarray(stamps) - self.start) * 1e-9
 
 
-def pose_values(pose):
+def pose_values(pose: Any) -> tuple[float, ...]:
     p, q = pose.position, pose.orientation
     return (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
 
 
-def transform_values(transform):
+def transform_values(transform: Any) -> tuple[float, ...]:
     t, r = transform.translation, transform.rotation
     return (t.x, t.y, t.z, r.x, r.y, r.z, r.w)
 
 
-def open_bag(path):
+def open_bag(path: str) -> rosbag.Bag:
     try:
         return rosbag.Bag(path)
     except rosbag.ROSBagUnindexedException:
@@ -122,7 +124,7 @@ def open_bag(path):
         raise RecordingError(f"{path}: cannot be read: {error}") from None
 
 
-def description(path):
+def description(path: str) -> dict:
     """What a trial's bag says about itself: command, arguments, versions; {} when nothing."""
     with open_bag(path) as bag:
         for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
@@ -130,7 +132,7 @@ def description(path):
     return {}
 
 
-def tag_row(message, tag_id):
+def tag_row(message: Any, tag_id: int) -> tuple[float, ...]:
     """Pose of a tag in a TagDetectionArray as 7 numbers, NaN when it was not found."""
     for detection in message.detections:
         if detection.id == tag_id:
@@ -247,7 +249,7 @@ class _Reader:
         return pose
 
 
-def read(path, tag_id=0):
+def read(path: str, tag_id: int = 0) -> Recording:
     """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing."""
     if not os.path.exists(path):
         raise RecordingError(f"{path}: there is no such bag")

@@ -13,6 +13,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from prf_experiments.judge import judge
+from prf_experiments.record.recording import Contact, Recording
 
 TRUE = {"color": "black", "linewidth": 1.2}
 MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5,
@@ -31,14 +32,16 @@ MAX_POINTS = 1500
 
 BOX_SIDE, BOX_DEPTH, BOX_ABOVE_TAG = 0.30, 0.20, -0.07  # m; the tag hangs above the box's centre
 
+Series = tuple[np.ndarray, np.ndarray]  # stamps (n,) ns, positions (n, 3) m
 
-def thin(*arrays):
+
+def thin(*arrays: np.ndarray) -> list[np.ndarray]:
     """Every n-th row of each array, so that about MAX_POINTS remain."""
     step = max(1, len(arrays[0]) // MAX_POINTS)
     return [array[::step] for array in arrays]
 
 
-def svg(figure, description):
+def svg(figure: Figure, description: str) -> Markup:
     """The figure as an SVG element with its description for those who cannot see it."""
     stream = io.StringIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "prf"}):
@@ -63,7 +66,8 @@ def _states_panel(axes, recording):
     axes.set_ylabel("phase", fontsize=9)
 
 
-def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"):
+def target_over_time(recording: Recording, truth: Series, measured: Series, predicted: Series,
+                     horizon: float, shown: str = "xyz") -> Markup:
     """Target in the arm's base, the posterior of the HMM and the phase.
 
     truth, measured, predicted: (stamps ns, (n, 3) m) each; `shown` names the axes.
@@ -98,7 +102,8 @@ def target_over_time(recording, truth, measured, predicted, horizon, shown="xyz"
     return svg(figure, "Target position, HMM posterior and phase over time")
 
 
-def distances(recording, stamps, lateral, along, contacts):
+def distances(recording: Recording, stamps: np.ndarray, lateral: np.ndarray, along: np.ndarray,
+              contacts: list[Contact]) -> Markup:
     """How far the tag is from where the camera should have it, and what was touched."""
     figure = Figure(figsize=(9.0, 6.2), layout="constrained")
     panels = figure.subplots(4, 1, sharex=True, height_ratios=[1, 1, 0.35, 0.7])
@@ -143,7 +148,8 @@ def _equal_axes(axes, points):
     axes.set_box_aspect((1, 1, 1))
 
 
-def paths_in_space(executed, demonstrated, planned, target):
+def paths_in_space(executed: np.ndarray, demonstrated: np.ndarray, planned: np.ndarray,
+                   target: np.ndarray) -> Markup:
     """Hand paths (n, 3) in the arm's base frame; target (3,)."""
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     axes = figure.add_subplot(projection="3d")
@@ -165,7 +171,7 @@ def paths_in_space(executed, demonstrated, planned, target):
     return svg(figure, "Path of the hand in the arm's base frame: demonstrated, planned, executed")
 
 
-def paths_before_box(executed, demonstrated):
+def paths_before_box(executed: np.ndarray, demonstrated: np.ndarray) -> Markup:
     """Hand paths (n, 3) in the tag's frame (x right, y up, z toward the viewer), with the box."""
     figure = Figure(figsize=(9.0, 3.8), layout="constrained")
     side, top = figure.subplots(1, 2)

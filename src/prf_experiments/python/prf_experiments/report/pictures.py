@@ -10,6 +10,7 @@ from catkin.find_in_workspaces import find_in_workspaces
 from markupsafe import Markup
 
 from prf_experiments.judge import judge
+from prf_experiments.record.recording import Recording
 from prf_experiments.report import page
 from prf_experiments.run import processes
 
@@ -18,7 +19,7 @@ TIMEOUT = 120.0  # s for one program
 ANIMATION = ["--seconds", "8", "--rate", "8", "--width", "440"]
 
 
-def moments(data, figures):
+def moments(data: Recording, figures: dict) -> list[tuple[float, str]]:
     """[(s since the first tick, what is to be seen)], in the order of time."""
     end = float(data.seconds(data.ticks[-1]))
     found = [(0.0, "the start"), (end, "the end")]
@@ -46,7 +47,7 @@ def _embedded(path, text):
     return page.render("picture.html", text=text, content=content)
 
 
-def key_frames(bag, data, figures):
+def key_frames(bag: str, data: Recording, figures: dict) -> Markup:
     """HTML of the scene at the trial's moments."""
     urdf = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")[0]
     program = processes.executable("scene_drawing", "scene_picture")
@@ -63,7 +64,7 @@ def key_frames(bag, data, figures):
     return Markup("\n").join(parts)
 
 
-def animation(bag):
+def animation(bag: str) -> Markup:
     """HTML of the whole trial as an animation."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "trial.webp")
@@ -71,7 +72,7 @@ def animation(bag):
         return _embedded(out, "the whole trial, shortened to 8 s")
 
 
-def of(bag, data, figures):
+def of(bag: str, data: Recording | None, figures: dict) -> Markup:
     """HTML of what could be drawn; why not, where something could not."""
     parts = []
     for draw, words in ((key_frames, (bag, data, figures)), (animation, (bag,))):

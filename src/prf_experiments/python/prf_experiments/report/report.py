@@ -23,8 +23,8 @@ def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Ma
     camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), recording.PLANNING_FRAME,
                            "camera_optical_frame", data.detection_stamps)
     measured = data.detection_stamps, geometry.compose(camera, data.detections)[:, :3]
-    *predicted, horizon = target.forecast(data)
-    return figures.target_over_time(data, target.true(data), measured, predicted, horizon,
+    stamps, positions, horizon = target.forecast(data)
+    return figures.target_over_time(data, target.true(data), measured, (stamps, positions), horizon,
                                     shown)
 
 

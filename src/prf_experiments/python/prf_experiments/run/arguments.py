@@ -2,7 +2,7 @@
 """`key:=value` arguments with a list of what is valid."""
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +19,7 @@ class Argument:
     meaning: str
 
 
-def choice(*values):
+def choice(*values: str) -> dict[str, Any]:
     def parse(text):
         if text not in values:
             raise ValueError
@@ -27,7 +27,7 @@ def choice(*values):
     return {"valid": "|".join(values), "parse": parse}
 
 
-def boolean():
+def boolean() -> dict[str, Any]:
     def parse(text):
         if text.lower() not in ("true", "on", "false", "off"):
             raise ValueError
@@ -35,7 +35,7 @@ def boolean():
     return {"valid": "true|false|on|off", "parse": parse}
 
 
-def integer(low, high):
+def integer(low: int, high: int) -> dict[str, Any]:
     def parse(text):
         value = int(text)
         if not low <= value <= high:
@@ -44,7 +44,7 @@ def integer(low, high):
     return {"valid": f"integer {low}..{high}", "parse": parse}
 
 
-def number(low, high):
+def number(low: float, high: float) -> dict[str, Any]:
     def parse(text):
         value = float(text)
         if not (math.isfinite(value) and low <= value <= high):
@@ -53,7 +53,7 @@ def number(low, high):
     return {"valid": f"number {low:g}..{high:g}", "parse": parse}
 
 
-def path():
+def path() -> dict[str, Any]:
     def parse(text):
         if not text:
             raise ValueError
@@ -61,7 +61,7 @@ def path():
     return {"valid": "a path", "parse": parse}
 
 
-def choice_or_file(*values, endings):
+def choice_or_file(*values: str, endings: tuple[str, ...]) -> dict[str, Any]:
     """One of the values, or an existing file with one of the endings."""
     def parse(text):
         if text in values:
@@ -73,19 +73,19 @@ def choice_or_file(*values, endings):
     return {"valid": "|".join([*values, "FILE" + "|FILE".join(endings)]), "parse": parse}
 
 
-def usage(arguments):
+def usage(arguments: dict[str, Argument]) -> str:
     width = max(len(name) for name in arguments) + 2
     return "\n".join(f"  {name + ':=':<{width}} {argument.valid:<24} {argument.meaning}"
                      f" [{show(argument.default)}]" for name, argument in arguments.items())
 
 
-def show(value):
+def show(value: Any) -> str:
     if value is None:
         return "the package's own"
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def value(name, text, arguments):
+def value(name: str, text: str, arguments: dict[str, Argument]) -> Any:
     """The parsed value of one argument."""
     if name not in arguments:
         raise ArgumentError(f"unknown argument '{name}'")
@@ -95,7 +95,7 @@ def value(name, text, arguments):
         raise ArgumentError(f"invalid {name}:={text}, valid: {arguments[name].valid}") from None
 
 
-def parse(words, arguments):
+def parse(words: Iterable[str], arguments: dict[str, Argument]) -> dict[str, Any]:
     """{name: value} for every argument; defaults where `words` are silent, else the last word."""
     values = {name: argument.default for name, argument in arguments.items()}
     for word in words:
@@ -106,7 +106,7 @@ def parse(words, arguments):
     return values
 
 
-def parse_lists(words, arguments):
+def parse_lists(words: Iterable[str], arguments: dict[str, Argument]) -> dict[str, list]:
     """{name: [value, ...]} of the arguments that `words` name; commas part values."""
     values = {}
     for word in words:

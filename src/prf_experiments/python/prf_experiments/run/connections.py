@@ -8,10 +8,11 @@ import rosgraph
 
 from prf_experiments.record.topics import TABLE
 
+Link = tuple[str, str, str]  # topic, publisher, subscriber
 CALLER = "/prf_experiments"
 TIMEOUT = 5.0  # s for one answer of a node
 
-def trial_links(source, simulated=True):
+def trial_links(source: str, simulated: bool = True) -> set[Link]:
     """(topic, publisher, subscriber) without which nothing goes.
 
     `source` is the node that publishes the sensor topics.
@@ -32,7 +33,7 @@ class _Transport(xmlrpc.client.Transport):
         return http.client.HTTPConnection(host, timeout=TIMEOUT)
 
 
-def registered(master):
+def registered(master: rosgraph.Master) -> set[Link]:
     """(topic, publisher, subscriber) for every pair that the master knows."""
     publishers, subscribers, _ = master.getSystemState()
     publishing = dict(publishers)
@@ -41,7 +42,7 @@ def registered(master):
             for publisher in publishing.get(topic, []) if publisher != subscriber}
 
 
-def subscriptions(master):
+def subscriptions(master: rosgraph.Master) -> dict[str, set[str]]:
     """{node: set of topics} of all subscribers that the master knows."""
     result: dict[str, set[str]] = {}
     for topic, nodes in master.getSystemState()[1]:
@@ -50,7 +51,7 @@ def subscriptions(master):
     return result
 
 
-def established(master, publishers):
+def established(master: rosgraph.Master, publishers: set[str]) -> set[Link]:
     """(topic, publisher, subscriber) for every link that one of the publishers really serves."""
     links = set()
     for publisher in publishers:
@@ -60,7 +61,7 @@ def established(master, publishers):
     return links
 
 
-def missing(master, required):
+def missing(master: rosgraph.Master, required: set[Link]) -> set[Link]:
     """Links that are required or registered but not established; empty when all is connected."""
     wanted = set(required)
     try:

@@ -10,6 +10,7 @@ import json
 import os
 import sys
 import threading
+from typing import Any
 
 import roslaunch
 
@@ -17,12 +18,12 @@ STOP_TIMEOUT = 4.0  # s that a node gets for SIGINT, then again for SIGTERM
 
 
 class Reporter(roslaunch.pmon.ProcessListener):
-    def __init__(self, descriptor):
+    def __init__(self, descriptor: int):
         self._stream = os.fdopen(descriptor, "w")
         self._lock = threading.Lock()
-        self._told = set()
+        self._reported: set[str] = set()
 
-    def tell(self, **what):
+    def tell(self, **what: Any) -> None:
         with self._lock:
             try:
                 self._stream.write(json.dumps(what) + "\n")
@@ -30,12 +31,12 @@ class Reporter(roslaunch.pmon.ProcessListener):
             except BrokenPipeError:
                 pass
 
-    def process_died(self, process_name, exit_code):
+    def process_died(self, process_name: str, exit_code: int) -> None:
         name = process_name.rpartition("-")[0]  # roslaunch appends a running number
         with self._lock:
-            if name in self._told:
+            if name in self._reported:
                 return
-            self._told.add(name)
+            self._reported.add(name)
         self.tell(died=name, exit_code=exit_code)
 
 
@@ -48,7 +49,7 @@ class Parent(roslaunch.parent.ROSLaunchParent):
             node.required = False
 
 
-def not_launched(parent):
+def not_launched(parent: Parent) -> list[str]:
     """package/program of the nodes that roslaunch could not find; it only logs that."""
     begun = [process.name.rpartition("-")[0]
              for process in [*parent.pm.procs, *parent.pm.dead_list]]
@@ -56,7 +57,7 @@ def not_launched(parent):
             if node.name not in begun]
 
 
-def main(words):
+def main(words: list[str]) -> int:
     reporter = Reporter(int(words[0]))
     port, launch_file, arguments = int(words[1]), words[2], words[3:]
     parent = Parent(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The session's own node: describes the run for the bag, starts it, watches it."""
 import json
+from typing import Any
 
 import numpy as np
 import roslib.message
@@ -19,13 +20,13 @@ TYPES = {"/" + name: roslib.message.get_message_class(topics.TABLE.type_of(name)
 
 
 class Observer:
-    def __init__(self, description=None):
+    def __init__(self, description: dict | None = None):
         rospy.init_node(NAME, disable_signals=True, log_level=rospy.ERROR)
         if description is not None:
             self._publisher = rospy.Publisher("/" + topics.DESCRIPTION, std_msgs.msg.String,
                                               latch=True, queue_size=1)
             self._publisher.publish(json.dumps(description, sort_keys=True))
-        self._latest = {}
+        self._latest: dict[str, bytes] = {}
         self._start = None
         for topic in TYPES:  # kept raw, decoded only when a line is shown
             rospy.Subscriber(topic, rospy.AnyMsg, self._keep, callback_args=topic, queue_size=1)
@@ -36,7 +37,7 @@ class Observer:
     def _decode(self, topic):
         return TYPES[topic]().deserialize(self._latest[topic]) if topic in self._latest else None
 
-    def call(self, service, kind=std_srvs.srv.Trigger, **request):
+    def call(self, service: str, kind: type = std_srvs.srv.Trigger, **request: Any) -> None:
         """Calls a service that answers with success and message."""
         try:
             rospy.wait_for_service(service, timeout=20.0)
@@ -46,7 +47,7 @@ class Observer:
         if not response.success:
             raise SessionError(f"{service} refused: {response.message}")
 
-    def status(self, wall):
+    def status(self, wall: float) -> str:
         """One line of text on the run, `wall` s after its start."""
         progress, tag, camera = (self._decode(topic) for topic in TYPES)
         if tag is None or camera is None:
@@ -61,5 +62,5 @@ class Observer:
         return (f"{seconds:5.1f} s  {state:<8}  tag {1e3 * lateral[0]:4.0f} mm off the axis, "
                 f"{1e3 * along[0]:4.0f} mm away  ({seconds / max(wall, 1e-3):.2f} x real time)")
 
-    def close(self):
+    def close(self) -> None:
         rospy.signal_shutdown("session over")

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator, Sequence
 
 import roslib.packages
 
@@ -20,7 +21,7 @@ PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
 
 
-def executable(package, name):
+def executable(package: str, name: str) -> str:
     """Path of a package's program, as rosrun finds it."""
     found = roslib.packages.find_node(package, name)
     if not found:
@@ -33,7 +34,7 @@ class ProcessError(Exception):
 
 
 @contextlib.contextmanager
-def reserved_port():
+def reserved_port() -> Iterator[int]:
     """A free port for a master that no other trial on this machine takes meanwhile."""
     for port in random.SystemRandom().sample(range(11500, 20000), 200):
         lock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -49,7 +50,7 @@ def reserved_port():
     raise ProcessError("no free port for a ROS master between 11500 and 20000")
 
 
-def master_environment(port, log_folder):
+def master_environment(port: int, log_folder: str) -> dict[str, str]:
     """Environment variables of every process of a trial."""
     values = {"ROS_MASTER_URI": f"http://localhost:{port}", "ROS_LOG_DIR": log_folder,
               "ROSCONSOLE_FORMAT": "[${severity}] [${node}] ${message}"}
@@ -58,7 +59,7 @@ def master_environment(port, log_folder):
     return values
 
 
-def last_error(log_file, node):
+def last_error(log_file: str, node: str) -> str:
     """Last FATAL line of a node, else its last ERROR line, else an empty string."""
     pattern = re.compile(r"\[(FATAL|ERROR)\] \[/?" + re.escape(node) + r"\] (.*?)(\x1b\[0m)?$")
     found = {}
@@ -73,9 +74,9 @@ def last_error(log_file, node):
 class Launch:
     """A launch file running with its own master, in a process of its own."""
 
-    def __init__(self, port, launch_file, arguments, log_folder):
+    def __init__(self, port: int, launch_file: str, arguments: list[str], log_folder: str):
         self._log_file = os.path.join(log_folder, "launch.log")
-        self._died = {}
+        self._died: dict[str, int] = {}
         self._error = None
         self._started = threading.Event()
         read_end, write_end = os.pipe()
@@ -102,26 +103,26 @@ class Launch:
                 elif "started" in report:
                     self._started.set()
 
-    def wait_until_started(self, timeout=60.0):
+    def wait_until_started(self, timeout: float = 60.0) -> None:
         end = time.monotonic() + timeout
         while not self._started.wait(0.05):
             self.check()
             if time.monotonic() > end:
                 raise ProcessError(f"the nodes did not start within {timeout:g} s")
 
-    def exit_code(self, node):
+    def exit_code(self, node: str) -> int | None:
         """Exit code of a node that has ended, None while it runs."""
         return self._died.get(node)
 
-    def has_ended(self, node):
+    def has_ended(self, node: str) -> bool:
         return node in self._died
 
-    def describe_end(self, node):
+    def describe_end(self, node: str) -> str:
         error = last_error(self._log_file, node)
         return (f"{node} ended with exit code {self._died[node]}"
                 + (f": {error}" if error else f", see {self._log_file}"))
 
-    def check(self, may_end=()):
+    def check(self, may_end: Sequence[str] = ()) -> None:
         """Raises ProcessError when the launch failed or a node ended that should not have."""
         if self._error:
             raise ProcessError(f"launch failed: {self._error}")
@@ -131,7 +132,7 @@ class Launch:
         if self._process.poll() is not None:
             raise ProcessError(f"the launch process ended, see {self._log_file}")
 
-    def stop(self, timeout=60.0):
+    def stop(self, timeout: float = 60.0) -> None:
         with contextlib.suppress(BrokenPipeError):
             self._input.close()
         try:
@@ -151,7 +152,7 @@ class Recorder:
 
     MIN_FREE = 100 * 1024**2  # bytes; below, the disk counts as full
 
-    def __init__(self, bag, topics, log_file, name="recorder"):
+    def __init__(self, bag: str, topics: list[str], log_file: str, name: str = "recorder"):
         self.bag = bag
         self._log_file = log_file
         with open(log_file, "w", encoding="utf-8") as log:
@@ -161,7 +162,7 @@ class Recorder:
                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
                 preexec_fn=_end_with_parent)
 
-    def check(self):
+    def check(self) -> None:
         if self._process.poll() is not None:
             raise ProcessError(f"the recorder ended with exit code {self._process.returncode}: "
                                + self._last_line())
@@ -179,7 +180,7 @@ class Recorder:
             fields = stat.read().rpartition(")")[2].split()
         return int(fields[11]) + int(fields[12])
 
-    def wait_until_idle(self, quiet=0.5, timeout=60.0):
+    def wait_until_idle(self, quiet: float = 0.5, timeout: float = 60.0) -> None:
         """Returns when the recorder has used next to no processor time for `quiet` s."""
         end = time.monotonic() + timeout
         before = self._cpu_ticks()
@@ -192,7 +193,7 @@ class Recorder:
             before = now
         raise ProcessError(f"the recorder was still busy {timeout:g} s after the last message")
 
-    def close(self, timeout=60.0):
+    def close(self, timeout: float = 60.0) -> None:
         """Ends the recording and waits for the closed bag."""
         self.check()
         self._process.send_signal(signal.SIGINT)
@@ -203,7 +204,7 @@ class Recorder:
         if not os.path.exists(self.bag):
             raise ProcessError("the recorder left no closed bag: " + self._last_line())
 
-    def stop(self):
+    def stop(self) -> None:
         """Ends the process whatever became of the bag."""
         if self._process.poll() is not None:
             return

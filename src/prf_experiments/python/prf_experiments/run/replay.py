@@ -7,6 +7,7 @@ import os
 import subprocess
 import tempfile
 import time
+from collections.abc import Iterator
 
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
@@ -18,7 +19,7 @@ FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonst
 
 
 @contextlib.contextmanager
-def player(bag, log_file, rate):
+def player(bag: str, log_file: str, rate: float) -> Iterator[subprocess.Popen]:
     """`rosbag play` of the sensor topics, paused before the first message."""
     with open(log_file, "w", encoding="utf-8") as log:
         process = subprocess.Popen(
@@ -33,7 +34,7 @@ def player(bag, log_file, rate):
             process.wait()
 
 
-def replay(bag, folder, rate):
+def replay(bag: str, folder: str, rate: float) -> str:
     """Leaves folder/replay.bag with everything that the framework publishes."""
     description = recording.description(bag)
     chosen = description.get("arguments", {})
@@ -67,13 +68,13 @@ def replay(bag, folder, rate):
     return os.path.join(folder, "replay.bag")
 
 
-def compare(bag, replayed):
+def compare(bag: str, replayed: str) -> tuple[dict, dict, list[str]]:
     """(digests of the trial's outputs, of the replay's, lines of differences)."""
     ours, theirs = digest.digests(bag, COMPARED), digest.digests(replayed, COMPARED)
     return ours, theirs, digest.differences(ours, theirs)
 
 
-def run(options):
+def run(options: argparse.Namespace) -> int:
     if options.folder:
         os.makedirs(options.folder, exist_ok=True)
     with contextlib.ExitStack() as stack:
@@ -91,7 +92,7 @@ def run(options):
     return 1 if differences else 0
 
 
-def main(words):
+def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="replay", description="Plays the sensor topics of a trial's bag into the framework "
         "alone and compares its outputs with those in the bag. Exit 0: identical.")

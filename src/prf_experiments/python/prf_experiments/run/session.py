@@ -9,6 +9,7 @@ import shutil
 import signal
 import sys
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import rosgraph
@@ -27,13 +28,13 @@ class SessionError(Exception):
 
 
 class Interrupted(BaseException):
-    def __init__(self, number):
+    def __init__(self, number: int):
         super().__init__(signal.Signals(number).name)
         self.exit_code = 128 + number
 
 
 @contextlib.contextmanager
-def interruptible():
+def interruptible() -> Iterator[None]:
     """SIGINT, SIGTERM and SIGHUP raise Interrupted once; during the clean-up they are ignored."""
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -50,11 +51,11 @@ def interruptible():
             signal.signal(number, handler)
 
 
-def packaged(*parts):
+def packaged(*parts: str) -> str:
     return os.path.join(rospkg.RosPack().get_path("prf_experiments"), *parts)
 
 
-def check_space(folder):
+def check_space(folder: str) -> None:
     free = shutil.disk_usage(folder).free
     if free < NEEDED_SPACE:
         raise SessionError(f"disk full: {free >> 20} MiB are free in {folder}, "
@@ -70,7 +71,7 @@ def _refused_in_one_line(results):
                            f"{error.strerror}") from None
 
 
-def use_folder(folder):
+def use_folder(folder: str) -> str:
     """The folder with a log folder in it, new, and with room for a bag."""
     with _refused_in_one_line(folder):
         os.makedirs(os.path.join(folder, "log"))
@@ -78,7 +79,7 @@ def use_folder(folder):
     return folder
 
 
-def create_folder(results, name):
+def create_folder(results: str, name: str) -> str:
     """results/<time>_<name>/ with a log folder, new, writable and with room for a bag."""
     stamp = time.strftime("%Y%m%d-%H%M%S")
     with _refused_in_one_line(results):
@@ -102,7 +103,7 @@ class ProgressLine:
         self._next = time.monotonic()
         self._open = False
 
-    def show(self, text, always=False):
+    def show(self, text: str, always: bool = False) -> None:
         now = time.monotonic()
         if now < self._next and not always:
             return
@@ -114,7 +115,7 @@ class ProgressLine:
             sys.stdout.write(text + "\n")
         sys.stdout.flush()
 
-    def close(self):
+    def close(self) -> None:
         if self._open:
             sys.stdout.write("\n")
             self._open = False
@@ -133,11 +134,11 @@ class Session:
     driver: str
     progress: ProgressLine = field(default_factory=ProgressLine)
 
-    def log(self, name):
+    def log(self, name: str) -> str:
         return os.path.join(self.folder, "log", name)
 
     @contextlib.contextmanager
-    def running(self):
+    def running(self) -> Iterator[processes.Launch]:
         """Master and nodes running, environment set. Everything is stopped at the end."""
         with contextlib.ExitStack() as stack:
             port = stack.enter_context(processes.reserved_port())
@@ -150,7 +151,7 @@ class Session:
             yield launch
 
     @contextlib.contextmanager
-    def recording(self):
+    def recording(self) -> Iterator[processes.Recorder]:
         """The recorder, running. What it wrote counts only once it was closed."""
         recorder = processes.Recorder(os.path.join(self.folder, self.bag), self.topics,
                                       self.log("recorder.log"))
@@ -159,7 +160,7 @@ class Session:
         finally:
             recorder.stop()
 
-    def wait_until_connected(self, launch, recorder):
+    def wait_until_connected(self, launch: processes.Launch, recorder: processes.Recorder) -> None:
         """Returns when every pair of publisher and subscriber is connected, and stays so."""
         master = rosgraph.Master(connections.CALLER)
         end = time.monotonic() + CONNECT_TIMEOUT
@@ -176,14 +177,15 @@ class Session:
             self.progress.show(f"connecting the nodes, {len(absent)} links missing")
             time.sleep(0.2)
 
-    def save_parameters(self):
+    def save_parameters(self) -> None:
         tree = rosgraph.Master(connections.CALLER).getParam("/")
         for name in ("robot_description", "roslaunch", "run_id"):
             tree.pop(name, None)
         with open(os.path.join(self.folder, "parameters.yaml"), "w", encoding="utf-8") as stream:
             yaml.safe_dump(tree, stream)
 
-    def wait_for_driver(self, launch, recorder, status):
+    def wait_for_driver(self, launch: processes.Launch, recorder: processes.Recorder,
+                        status: Callable[[float], str]) -> float:
         """Until the driver has ended well. Returns the wall time it took, s."""
         started = time.monotonic()
         while not launch.has_ended(self.driver):
@@ -196,21 +198,22 @@ class Session:
             raise SessionError(launch.describe_end(self.driver))
         return wall
 
-    def close(self, launch, recorder):
+    def close(self, launch: processes.Launch, recorder: processes.Recorder) -> None:
         """The closed bag, after every message under way has reached the recorder."""
         recorder.wait_until_idle()
         launch.check(may_end=[self.driver])
         recorder.close()
 
 
-def recorder_links(topics, publisher, recorder="recorder"):
+def recorder_links(topics: list[str], publisher: str,
+                   recorder: str = "recorder") -> set[connections.Link]:
     return {("/" + topic, "/" + publisher, "/" + recorder) for topic in topics}
 
 
 SENSOR_AND_TRUTH = topics.SENSORS + topics.GROUND_TRUTH
 
 
-def guarded(name, action):
+def guarded(name: str, action: Callable[[], int]) -> int:
     """Runs action(); errors become one line on stderr. Returns the exit code."""
     from prf_experiments.teach.demonstration import DemonstrationError
     try:

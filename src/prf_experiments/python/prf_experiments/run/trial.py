@@ -19,7 +19,7 @@ START_SERVICE = "/platform_sim/start"
 EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
 
 
-def versions():
+def versions() -> dict[str, str]:
     """What ran, as far as it can be told."""
     stack = rospkg.RosPack()
     result = {"prf_experiments": stack.get_manifest("prf_experiments").version,
@@ -32,7 +32,7 @@ def versions():
     return result
 
 
-def describe(values):
+def describe(values: dict) -> dict:
     """What the bag says about itself."""
     words = ["rosrun prf_experiments run_trial", *trial_arguments.words(values)]
     return {"command": " ".join(words),
@@ -40,7 +40,7 @@ def describe(values):
             "versions": versions()}
 
 
-def simulate(run, description):
+def simulate(run: session.Session, description: dict) -> float:
     """Runs the trial to the simulator's end and leaves a closed bag. Returns the wall time, s."""
     with run.running() as launch, contextlib.ExitStack() as stack:
         # Imported here: rospy reads the environment that running() has set.
@@ -56,7 +56,8 @@ def simulate(run, description):
         return wall
 
 
-def evaluate(folder, description, wall, failure, progress):
+def evaluate(folder: str, description: dict, wall: float | None, failure: str,
+             progress: session.ProgressLine) -> dict:
     """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
     from prf_experiments.report import pictures, report  # matplotlib takes its time
     bag, data = os.path.join(folder, "trial.bag"), None
@@ -82,11 +83,11 @@ def evaluate(folder, description, wall, failure, progress):
     return content
 
 
-def skill(values):
+def skill(values: dict) -> str:
     return values["demonstration"] or session.packaged("demonstrations", "inspect_box.csv")
 
 
-def session_of(values, folder):
+def session_of(values: dict, folder: str) -> session.Session:
     """The trial as a session that leaves its bag in `folder`."""
     return session.Session(
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
@@ -98,7 +99,7 @@ def session_of(values, folder):
         driver=SIMULATOR)
 
 
-def run(values, folder=None):
+def run(values: dict, folder: str | None = None) -> int:
     """Runs one trial and prints what people want to know. Returns the exit code.
 
     Without `folder` the trial gets a new one in the results folder.
@@ -130,7 +131,7 @@ def run(values, folder=None):
     return EXIT_INVALID if content["verdict"] == "INVALID" else EXIT_OK
 
 
-def main(words):
+def main(words: list[str]) -> int:
     valid = trial_arguments.TRIAL
     if any(word in ("-h", "--help") for word in words):
         print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + args.usage(valid))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
 import os
+from collections.abc import Sequence
 
 from prf_experiments.run.arguments import (
     Argument,
@@ -55,7 +56,7 @@ TRIAL = {
 }
 
 
-def complete(values, words):
+def complete(values: dict, words: Sequence[str]) -> dict:
     """The floor under the cart does not move: `values` with motion none unless `words` say it."""
     if values["scenario"] != "cart":
         return values
@@ -65,13 +66,13 @@ def complete(values, words):
     return {**values, "motion": "none"}
 
 
-def words(values):
+def words(values: dict) -> list[str]:
     """The launched arguments that say more than their defaults, as name:=value."""
     return [f"{name}:={show(values[name])}" for name, argument in LAUNCHED.items()
             if name in NAMED or values[name] != argument.default]
 
 
-def name(values):
+def name(values: dict) -> str:
     """Name of a trial, the same for the same arguments; good for a folder."""
     short = {**values, "demonstration": os.path.basename(values["demonstration"] or "") or None,
              **{key: os.path.basename(values[key]) for key in ("motion", "body_motion")}}

@@ -17,19 +17,19 @@ NUMBERS = {"final_lateral_mm": "off axis at the end, mm",
            "tracking_lateral_mean_mm": "off axis while tracking, mm"}
 
 
-def spread(results, name):
+def spread(results: list[dict], name: str) -> dict:
     found = statistics.spread([result["figures"].get(name) for result in results])
     return {"mean": found.mean, "deviation": found.deviation}
 
 
-def summarise(results):
+def summarise(results: list[dict]) -> dict:
     return {"cells": [{"framework": framework, "tests": letters(found),
                        **{name: spread(found, name) for name in NUMBERS}}
                       for framework in values(results, "framework")
                       for found in [cell(results, framework=framework)]]}
 
 
-def text(summary):
+def text(summary: dict) -> str:
     return aligned([("framework", "tests", *NUMBERS.values())]
                    + [(shown("framework", found["framework"]), grouped(found["tests"]),
                        *(with_spread(found[name], "+.1f") for name in NUMBERS))

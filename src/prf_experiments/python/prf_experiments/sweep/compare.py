@@ -3,7 +3,7 @@
 from matplotlib.figure import Figure
 
 from prf_experiments.report import figures, page
-from prf_experiments.report.page import Section
+from prf_experiments.report.page import Markup, Section
 from prf_experiments.sweep import statistics
 from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
 from prf_experiments.sweep.table import aligned, grouped
@@ -18,15 +18,15 @@ SHADES = ["0.25", "0.55", "0.8", "1.0"]
 HATCHES = ["", "///", "...", "xxx"]
 
 
-def measured(results, name):
+def measured(results: list[dict], name: str) -> list:
     return [result["figures"].get(name) for result in results]
 
 
-def as_json(found):
+def as_json(found: statistics.Spread) -> dict:
     return {"count": found.count, "mean": found.mean, "deviation": found.deviation}
 
 
-def pair(results, motion, first, second, name):
+def pair(results: list[dict], motion: str, first: str, second: str, name: str) -> dict:
     """first - second of a measure, over the seeds of one motion."""
     of = [cell(results, motion=motion, planner=planner) for planner in (first, second)]
     seeds = sorted(set(values(of[0], "seed")) & set(values(of[1], "seed")))
@@ -38,7 +38,7 @@ def pair(results, motion, first, second, name):
             "wilcoxon_p": found.wilcoxon_p}
 
 
-def summarise(results):
+def summarise(results: list[dict]) -> dict:
     planners = values(results, "planner")
     cells = [{"motion": motion, "planner": planner,
               "tests": letters(found),
@@ -50,21 +50,21 @@ def summarise(results):
     return {"cells": cells, "pairs": pairs}
 
 
-def number(value, form=".1f"):
+def number(value: float | None, form: str = ".1f") -> str:
     return "–" if value is None else format(value, form)
 
 
-def with_spread(found, form=".1f"):
+def with_spread(found: dict, form: str = ".1f") -> str:
     """Mean ± standard deviation, as far as they are defined."""
     spread = "" if found["deviation"] is None else f" ± {found['deviation']:.1f}"
     return number(found["mean"], form) + spread
 
 
-def probability(value):
+def probability(value: float | None) -> str:
     return "–" if value is None else "< 0.001" if value < 0.001 else f"{value:.3f}"
 
 
-def text(summary):
+def text(summary: dict) -> str:
     rows = [("motion", "planner", "tests", *(f"{name}, mm" for name in MEASURES.values()))]
     rows += [(found["motion"], found["planner"], grouped(found["tests"]),
               *(with_spread(found[name]) for name in MEASURES)) for found in summary["cells"]]
@@ -80,7 +80,7 @@ def text(summary):
             + ("\n" + aligned(lines) if len(lines) > 1 else ""))
 
 
-def distance_figure(summary, name):
+def distance_figure(summary: dict, name: str) -> Markup:
     """Bars of a measure with its spread over the seeds, told apart by lightness and hatching."""
     motions = list(dict.fromkeys(found["motion"] for found in summary["cells"]))
     planners = list(dict.fromkeys(found["planner"] for found in summary["cells"]))

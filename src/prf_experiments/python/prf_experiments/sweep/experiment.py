@@ -7,6 +7,7 @@ import argparse
 import importlib
 import os
 import sys
+from collections.abc import Sequence
 
 from prf_experiments.run import arguments as args
 from prf_experiments.run import trial_arguments
@@ -22,27 +23,27 @@ STUDIES = {
 SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
 
 
-def positive(text):
+def positive(text: str) -> int:
     value = int(text)
     if value < 1:
         raise argparse.ArgumentTypeError(f"{text} is not a positive number")
     return value
 
 
-def plain_name(text):
+def plain_name(text: str) -> str:
     if not text or text != os.path.basename(text) or text.startswith("."):
         raise argparse.ArgumentTypeError(f"'{text}' is not the plain name of a folder")
     return text
 
 
-def address(text):
+def address(text: str) -> str:
     protocol, separator, place = text.partition("://")
     if not (protocol and separator and place):
         raise argparse.ArgumentTypeError(f"'{text}' is not an address as tcp://host:8786")
     return text
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(
         prog="run_experiment", formatter_class=argparse.RawDescriptionHelpFormatter,
         usage="run_experiment [EXPERIMENT [--option ...]] [name:=value ...]",
@@ -73,12 +74,12 @@ def parser():
     return result
 
 
-def default_jobs():
+def default_jobs() -> int:
     """One for each processor: a trial uses about one on average, since its nodes take turns."""
     return len(os.sched_getaffinity(0))
 
 
-def parse(words):
+def parse(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
     """(options, name:=value words); raises ArgumentError or, from argparse, SystemExit."""
     named = [word for word in words if ":=" in word]
     options = parser().parse_args([word for word in words if ":=" not in word])
@@ -93,7 +94,7 @@ def parse(words):
     return options, named
 
 
-def main(words):
+def main(words: list[str]) -> int:
     check = "--check" in words
     words = [word for word in words if word != "--check"]
     try:

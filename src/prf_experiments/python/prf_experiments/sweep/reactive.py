@@ -3,6 +3,7 @@
 import numpy as np
 
 from prf_experiments.judge import judge, target
+from prf_experiments.record.recording import Recording
 from prf_experiments.report import page, report
 from prf_experiments.report.page import Section
 from prf_experiments.sweep import statistics
@@ -15,7 +16,7 @@ NUMBERS = {"forecast_error_rms_mm": "forecast error, rms", "reached_s": "reached
            "tracking_lateral_mean_mm": "off axis while tracking, mean"}
 
 
-def summarise(results):
+def summarise(results: list[dict]) -> dict:
     found = {name: statistics.spread([result["figures"].get(name) for result in results])
              for name in NUMBERS}
     return {"trials_count": len(results),
@@ -25,7 +26,7 @@ def summarise(results):
                for name, spread in found.items()}}
 
 
-def text(summary):
+def text(summary: dict) -> str:
     rows = [("trials", *NUMBERS.values()),
             (str(summary["trials_count"]),
              *("–" if summary[name]["mean"] is None else f"{summary[name]['mean']:.1f}"
@@ -34,14 +35,14 @@ def text(summary):
             "mm.\n")
 
 
-def phase_shares(data):
+def phase_shares(data: Recording) -> str:
     """Share of the time spent in each phase."""
     return ", ".join(f"{name.lower()} {100 * np.mean(data.progress.states == state):.0f} %"
                      for state, name in enumerate(judge.STATES)
                      if np.any(data.progress.states == state))
 
 
-def axis_errors(data):
+def axis_errors(data: Recording) -> list:
     """Root mean square of the forecast's error along each axis, mm."""
     stamps, positions, _ = target.forecast(data)
     found = target.errors(stamps, positions, target.true(data))

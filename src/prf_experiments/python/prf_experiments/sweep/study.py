@@ -5,6 +5,7 @@ import json
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from prf_experiments.record import recording
 from prf_experiments.report import page
@@ -32,7 +33,7 @@ class Study:
     keep_bags: str = "failed"
 
 
-def trials(study, options):
+def trials(study: Study, options: argparse.Namespace) -> list[dict]:
     """The trials of a study as the options restrict or extend it."""
     axes = {**study.axes, "seed": list(range(1, (options.seeds or study.seeds) + 1))}
     values = {name: chosen for name, chosen in options.values.items() if name != "results"}
@@ -48,7 +49,7 @@ def trials(study, options):
     return sweep.product(fixed, axes)
 
 
-def link(arguments, folder="."):
+def link(arguments: dict, folder: str = ".") -> str:
     """Relative address of a trial's report as seen from the study's page."""
     return os.path.relpath(
         os.path.join(sweep.trial_folder(folder, arguments), "report.html"), folder)
@@ -65,13 +66,13 @@ def verdict_links(results: list[dict]) -> Markup:
     return Markup(" ").join(map(verdict_link, results))
 
 
-def letters(results):
+def letters(results: list[dict]) -> str:
     """The verdicts of some trials as one word."""
     return "".join("×" if result["verdict"] == "INVALID" else result["verdict"]
                    for result in results)
 
 
-def read_bag(folder, result):
+def read_bag(folder: str, result: dict) -> tuple[str, recording.Recording | None]:
     """(path, recording) of a trial's bag; the recording is None when the bag was not kept."""
     bag = os.path.join(sweep.trial_folder(folder, result["arguments"]), "trial.bag")
     try:
@@ -83,13 +84,13 @@ def read_bag(folder, result):
 NO_BAG = "Its bag is not there; keep it with --keep-bags all."
 
 
-def cell(results, **chosen):
+def cell(results: list[dict], **chosen: Any) -> list[dict]:
     """Those results whose arguments have the chosen values."""
     return [result for result in results
             if all(result["arguments"][name] == value for name, value in chosen.items())]
 
 
-def values(results, name):
+def values(results: list[dict], name: str) -> list:
     """Values of an argument in the order in which they occur."""
     return list(dict.fromkeys(result["arguments"][name] for result in results))
 

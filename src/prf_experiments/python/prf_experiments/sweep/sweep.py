@@ -12,7 +12,9 @@ import json
 import os
 import sys
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TextIO
 
 from prf_experiments.run import trial_arguments
 from prf_experiments.run.session import Interrupted, SessionError
@@ -31,16 +33,16 @@ class SweepParams:
     any_version: bool = False
 
 
-def product(fixed, axes):
+def product(fixed: dict, axes: dict) -> list[dict]:
     """A trial {argument: value} for every combination of the axes {argument: values}."""
     return [{**fixed, **dict(zip(axes, values))} for values in itertools.product(*axes.values())]
 
 
-def trial_folder(folder, values):
+def trial_folder(folder: str, values: dict) -> str:
     return os.path.join(folder, "trials", trial_arguments.name(values))
 
 
-def finished(folder, values):
+def finished(folder: str, values: dict) -> dict | None:
     """The verdict of a trial that needs no repetition, else None."""
     content = trial_runner.read(trial_folder(folder, values))
     if content is None or content["verdict"] == "INVALID":
@@ -51,7 +53,7 @@ def finished(folder, values):
 
 
 @contextlib.contextmanager
-def locked(folder):
+def locked(folder: str) -> Iterator[None]:
     """The folder for one sweep at a time."""
     try:
         os.makedirs(os.path.join(folder, "trials"), exist_ok=True)
@@ -66,7 +68,7 @@ def locked(folder):
         yield
 
 
-def begin(folder, versions, any_version):
+def begin(folder: str, versions: dict, any_version: bool) -> None:
     """Notes what makes the sweep; refuses to mix trials of several versions."""
     path = os.path.join(folder, "sweep.json")
     with contextlib.suppress(OSError, ValueError), open(path, encoding="utf-8") as stream:
@@ -83,9 +85,11 @@ def begin(folder, versions, any_version):
 class Board:
     """What people see: a line for each finished trial, and on a terminal a bar below them."""
 
-    def __init__(self, total, kept, stream=sys.stdout, clock=time.monotonic):
+    def __init__(self, total: int, kept: int, stream: TextIO = sys.stdout,
+                 clock: Callable[[], float] = time.monotonic):
         self._total, self._kept, self._stream, self._clock = total, kept, stream, clock
-        self._started, self._done, self._counts = clock(), 0, {}
+        self._started, self._done = clock(), 0
+        self._counts: dict[str, int] = {}
         self._terminal = stream.isatty()
         self._write(f"{total} trials" + (f", {kept} of them finished before" if kept else ""))
 
@@ -93,14 +97,14 @@ class Board:
         self._stream.write(("\r\x1b[K" if self._terminal else "") + text + "\n")
         self._stream.flush()
 
-    def left(self):
+    def left(self) -> float | None:
         """Seconds that the rest will take, None before the first trial is done."""
         if not self._done:
             return None
         waiting = self._total - self._kept - self._done
         return waiting * (self._clock() - self._started) / self._done
 
-    def bar(self):
+    def bar(self) -> str:
         done = self._kept + self._done
         filled = BAR * done // max(1, self._total)
         counts = "  ".join(f"{verdict} {count}" for verdict, count in sorted(self._counts.items()))
@@ -109,7 +113,7 @@ class Board:
                 + ("" if left is None else f"about {left / 60:.0f} min left" if left >= 90
                    else f"about {left:.0f} s left"))
 
-    def tell(self, values, content):
+    def tell(self, values: dict, content: dict) -> None:
         self._done += 1
         self._counts[content["verdict"]] = self._counts.get(content["verdict"], 0) + 1
         again = "".join(f", after {reason}" for reason in content["failed_attempts"])
@@ -118,19 +122,19 @@ class Board:
                     f"({content['disk_bytes'] / MEGABYTE:.0f} MB{again})")
         self.refresh()
 
-    def refresh(self):
+    def refresh(self) -> None:
         if self._terminal:
             self._stream.write("\r\x1b[K" + self.bar())
             self._stream.flush()
 
-    def close(self, folder):
+    def close(self, folder: str) -> None:
         used = trial_runner.size(os.path.join(folder, "trials")) / MEGABYTE
         self._write(f"{self._done} trials in {(self._clock() - self._started) / 60:.1f} min; "
                     f"{folder} takes {used:.0f} MB on disk")
 
 
 @contextlib.contextmanager
-def executor(options):
+def executor(options: SweepParams) -> Iterator[concurrent.futures.Executor]:
     """Where trials are sent: something with submit() that gives concurrent futures."""
     if options.scheduler is None:
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -146,12 +150,15 @@ def executor(options):
         yield client.get_executor(pure=False)
 
 
-def run(trials, folder, options, versions, attempt=trial_runner.run_process, board=Board):
+def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
+        attempt: Callable[[dict, str], dict] = trial_runner.run_process,
+        board: Callable[[int, int], Board] = Board) -> list[dict]:
     """Verdicts of all trials in their order; those of an earlier, interrupted run are kept."""
     with locked(folder):
         begin(folder, versions, options.any_version)
-        results = {row: finished(folder, values) for row, values in enumerate(trials)}
-        waiting = [row for row, content in results.items() if content is None]
+        results = {row: content for row, values in enumerate(trials)
+                   if (content := finished(folder, values)) is not None}
+        waiting = [row for row in range(len(trials)) if row not in results]
         shown = board(len(trials), len(trials) - len(waiting))
         with executor(options) as pool:
             futures = {pool.submit(trial_runner.execute, trials[row],

@@ -4,12 +4,14 @@
 Other tables of verdicts differ in their axes only; a summary says which ones it has.
 """
 import itertools
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from prf_experiments.report import figures, page
-from prf_experiments.report.page import Section
+from prf_experiments.report.page import Markup, Section
 from prf_experiments.sweep import statistics
 from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
 
@@ -22,20 +24,20 @@ MARK = {"color": "black", "marker": "|", "markersize": 12, "linestyle": "none",
         "markeredgewidth": 1.6, "alpha": 0.8}
 
 
-def cells(results, axes):
+def cells(results: list[dict], axes: Sequence[str]) -> Iterator[tuple[dict, list[dict]]]:
     """(chosen arguments, results) of every cell, in the order of the table."""
     for chosen in itertools.product(*(values(results, name) for name in axes)):
         named = dict(zip(axes, chosen))
         yield named, cell(results, **named)
 
 
-def rate(count, trials):
+def rate(count: int, trials: int) -> dict:
     low, high = statistics.wilson(count, trials)
     return {"fraction": count / trials if trials else None, "fraction_low_95": low,
             "fraction_high_95": high}
 
 
-def row(chosen, results):
+def row(chosen: dict, results: list[dict]) -> dict:
     """The numbers of one cell. Trials that are INVALID count in no rate."""
     counts = {verdict: sum(result["verdict"] == verdict for result in results)
               for verdict in VERDICTS}
@@ -54,15 +56,15 @@ def row(chosen, results):
                                       for result in results), default=0.0)}
 
 
-def summarise(results, axes=ORDER):
+def summarise(results: list[dict], axes: Sequence[str] = ORDER) -> dict:
     return {"axes": list(axes), "cells": [row(*found) for found in cells(results, axes)]}
 
 
-def shown(name, value):
+def shown(name: str, value: Any) -> str:
     return ("on" if value else "off") if name == "framework" else str(value)
 
 
-def percent(found):
+def percent(found: dict) -> str:
     if found["fraction"] is None:
         return "–"
     return (f"{100 * found['fraction']:3.0f} ({100 * found['fraction_low_95']:.0f}–"
@@ -76,14 +78,14 @@ def grouped(text: str) -> str:
     return " ".join(text[first:first + 10] for first in range(0, len(text), 10))
 
 
-def aligned(rows):
+def aligned(rows: Sequence[Sequence[str]]) -> str:
     """Lines of text with the words of each row under each other."""
     widths = [max(map(len, column)) for column in zip(*rows)]
     return "\n".join("  ".join(word.ljust(width) for word, width in zip(line, widths)).rstrip()
                      for line in rows) + "\n"
 
 
-def text(summary):
+def text(summary: dict) -> str:
     rows = [(*summary["axes"], "tests", "S", "P", "F", "inv", "success, % (95 %)",
              "inspected, % (95 %)", "off axis, mm", "contact, N")]
     for found in summary["cells"]:
@@ -95,12 +97,12 @@ def text(summary):
     return aligned(rows)
 
 
-def labels_of(summary):
+def labels_of(summary: dict) -> list[str]:
     return [", ".join(shown(name, item[name]) for name in summary["axes"])
             for item in summary["cells"]]
 
 
-def distance_figure(summary, results):
+def distance_figure(summary: dict, results: list[dict]) -> Markup:
     """One mark for each trial: how far the tag was off the axis while tracking."""
     labels = labels_of(summary)
     figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(labels)), layout="constrained")
@@ -119,7 +121,7 @@ def distance_figure(summary, results):
     return figures.svg(figure, "Distance of the tag from the optical axis in each trial")
 
 
-def counts_figure(summary):
+def counts_figure(summary: dict) -> Markup:
     """Stacked counts of each cell; told apart by lightness and hatching."""
     found, labels = summary["cells"], labels_of(summary)
     figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(found)), layout="constrained")

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 
 from prf_experiments.run import trial_arguments
 
@@ -36,7 +37,7 @@ def _end_with_parent():
     LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGINT)
 
 
-def stop_running():
+def stop_running() -> None:
     """Ends this process's trials; each stops its nodes. No other begins afterwards."""
     with _lock:
         _stopping.set()
@@ -50,7 +51,7 @@ def stop_running():
             process.kill()
 
 
-def run_process(values, folder):
+def run_process(values: dict, folder: str) -> dict:
     """One attempt by `run_trial`. Returns what verdict.json holds, or None if there is none."""
     words = [sys.executable, "-m", "prf_experiments.run.trial", "--into", folder,
              *trial_arguments.words(values)]
@@ -75,7 +76,7 @@ def run_process(values, folder):
     return content or invalid(values, folder, error)
 
 
-def invalid(values, folder, error):
+def invalid(values: dict, folder: str, error: str) -> dict:
     """A verdict for a trial that left none."""
     lines = error.strip().splitlines()
     os.makedirs(folder, exist_ok=True)
@@ -84,7 +85,7 @@ def invalid(values, folder, error):
             "arguments": {name: values[name] for name in trial_arguments.LAUNCHED}}
 
 
-def read(folder):
+def read(folder: str) -> dict | None:
     """Content of a folder's verdict.json, None when there is none that is whole."""
     try:
         with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as stream:
@@ -93,17 +94,18 @@ def read(folder):
         return None
 
 
-def size(folder):
+def size(folder: str) -> int:
     """Bytes of all files below a folder."""
     return sum(os.lstat(os.path.join(place, name)).st_size
                for place, _, names in os.walk(folder) for name in names)
 
 
-def keeps(keep_bags, verdict):
+def keeps(keep_bags: str, verdict: str) -> bool:
     return keep_bags == "all" or (keep_bags == "failed" and verdict != "S")
 
 
-def execute(values, folder, keep_bags, attempt=run_process):
+def execute(values: dict, folder: str, keep_bags: str,
+            attempt: Callable[[dict, str], dict] = run_process) -> dict:
     """The trial `values` into `folder`, repeated once when INVALID. Returns its verdict.json."""
     part, failed, reasons = folder + ".part", folder + ".failed", []
     for number in range(1, ATTEMPTS + 1):

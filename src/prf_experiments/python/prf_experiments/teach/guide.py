@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Slerp
 
 from prf_experiments import geometry
@@ -29,7 +30,7 @@ class GuideParams:
     angular_stiffness: float  # Nm/rad
     angular_damping: float  # Nm s/rad
 
-    def validate(self):
+    def validate(self) -> None:
         for entry in fields(self):
             value = getattr(self, entry.name)
             if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -40,12 +41,12 @@ class GuideParams:
             raise ValueError("guide_time and stiffness must be above 0")
 
 
-def minimum_jerk(fraction):
+def minimum_jerk(fraction: float) -> float:
     u = min(max(fraction, 0.0), 1.0)
     return u**3 * (10.0 + u * (6.0 * u - 15.0))
 
 
-def stand_off_pose(tag, camera_in_hand, distance):
+def stand_off_pose(tag: np.ndarray, camera_in_hand: np.ndarray, distance: float) -> np.ndarray:
     """Pose of the hand that has the camera at `distance` before the tag, looking at its centre."""
     camera_in_tag = np.concatenate([[0.0, 0.0, distance], FACING])
     return geometry.compose(geometry.compose(tag, camera_in_tag),
@@ -55,12 +56,14 @@ def stand_off_pose(tag, camera_in_hand, distance):
 class Guide:
     """Wrench of the guiding hand; everything in one inertial frame."""
 
-    def __init__(self, parameters, stamp, hand, camera, tag):
+    def __init__(self, parameters: GuideParams, stamp: float, hand: ArrayLike, camera: ArrayLike,
+                 tag: ArrayLike):
         """Begins at `stamp` (s) with the hand's, the camera's and the tag's pose (7,)."""
         parameters.validate()
         self._parameters = parameters
         self._stamp = stamp
         self._start = np.asarray(hand, float)
+        tag = np.asarray(tag, float)
         camera_in_hand = geometry.compose(geometry.inverse(hand), camera)
         self._goal = stand_off_pose(tag, camera_in_hand, parameters.stand_off)
         normal = geometry.rotation(tag).apply([0.0, 0.0, 1.0])
@@ -68,20 +71,20 @@ class Guide:
         self._control_points = np.array(
             [self._start[:3], 0.5 * (self._start[:3] + bend), bend, self._goal[:3]])
         self._turn = Slerp([0.0, 1.0], geometry.rotation(np.array([self._start, self._goal])))
-        self._last = None  # stamp and pose of the hand
+        self._last: tuple[float, np.ndarray] | None = None  # stamp and pose of the hand
 
     @property
-    def goal(self):
+    def goal(self) -> np.ndarray:
         return self._goal
 
-    def pose(self, stamp):
+    def pose(self, stamp: float) -> np.ndarray:
         """Where the guide is at a time, (7,)."""
         elapsed = stamp - self._stamp - self._parameters.settle_time
         s = minimum_jerk(elapsed / self._parameters.guide_time)
         weights = np.array([(1 - s)**3, 3 * s * (1 - s)**2, 3 * s**2 * (1 - s), s**3])
         return geometry.make(weights @ self._control_points, self._turn(s))
 
-    def wrench(self, stamp, hand):
+    def wrench(self, stamp: float, hand: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Force (3,) and torque (3,) on the hand, whose pose is `hand` at `stamp`."""
         hand = np.asarray(hand, float)
         velocity, rotation = np.zeros(3), np.zeros(3)

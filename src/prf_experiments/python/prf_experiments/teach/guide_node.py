@@ -14,7 +14,7 @@ POSES = ["ground_truth/end_effector", "ground_truth/camera", "ground_truth/tag"]
 QUEUE = 200
 
 
-def read_parameters():
+def read_parameters() -> guide.GuideParams:
     """GuideParams from the private namespace; ValueError names what is wrong."""
     given = {name: value for name, value in rospy.get_param("~", {}).items()
              if not name.startswith("__")}
@@ -33,10 +33,10 @@ def read_parameters():
 class GuideNode:
     """Joins the tick and the poses by stamp, whatever order they arrive in."""
 
-    def __init__(self, parameters):
+    def __init__(self, parameters: guide.GuideParams):
         self._parameters = parameters
-        self._guide = None
-        self._waiting = {}  # stamp: {topic: message}
+        self._guide: guide.Guide | None = None
+        self._waiting: dict[int, dict] = {}  # stamp: {topic: message}
         self._publisher = rospy.Publisher(topics.GUIDE, geometry_msgs.msg.WrenchStamped,
                                           queue_size=QUEUE, tcp_nodelay=True)
         for topic in POSES:
@@ -68,7 +68,7 @@ class GuideNode:
         self._publisher.publish(message)
 
 
-def main():
+def main() -> int:
     rospy.init_node(NAME)
     try:
         node = GuideNode(read_parameters())

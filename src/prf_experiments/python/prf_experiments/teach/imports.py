@@ -13,8 +13,10 @@ be where the camera on the hand would have it at the end of the skill, at the st
 import argparse
 import csv
 import os
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from prf_experiments import geometry
 from prf_experiments.judge import judge
@@ -33,12 +35,12 @@ HAND_GROUPS = ("toolpose", "transform")
 MIN_NORM = 0.5  # of a recorded quaternion; what is shorter says nothing
 
 
-def target_at_stand_off(hand):
+def target_at_stand_off(hand: np.ndarray) -> np.ndarray:
     """Pose of the tag that the camera sees as demonstrated from this pose of the hand."""
     return geometry.compose(geometry.compose(hand, CAMERA_IN_HAND), TAG_BEFORE_CAMERA)
 
 
-def read_csv(path):
+def read_csv(path: str) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,) s, poses (n, 7)) of a table with named columns."""
     try:
         with open(path, encoding="utf-8", newline="") as stream:
@@ -59,7 +61,7 @@ def read_csv(path):
     return table[:, 0], table[:, 1:]
 
 
-def seconds(stamps):
+def seconds(stamps: ArrayLike) -> np.ndarray:
     """Times in s of a recording's stamps: seconds, or rows of seconds and nanoseconds."""
     stamps = np.asarray(stamps, dtype=float)
     if stamps.ndim == 2 and stamps.shape[1] == 2:
@@ -67,7 +69,7 @@ def seconds(stamps):
     return stamps.reshape(-1)
 
 
-def dataset(file, path, names, columns):
+def dataset(file: Any, path: str, names: list[str], columns: int | None) -> np.ndarray:
     """The first of the named data sets (n, columns) that the file has."""
     for name in names:
         if name in file:
@@ -79,7 +81,7 @@ def dataset(file, path, names, columns):
     raise DemonstrationError(f"{path}: no data set {' or '.join(names)}")
 
 
-def read_hdf5(path):
+def read_hdf5(path: str) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,) s, poses (n, 7)) of a recording in HDF5."""
     import h5py  # a tenth of a second, and only needed here
     try:
@@ -98,7 +100,7 @@ def read_hdf5(path):
     return times, np.hstack([positions, orientations])
 
 
-def clean(times, poses, path):
+def clean(times: np.ndarray, poses: np.ndarray, path: str) -> tuple[np.ndarray, np.ndarray]:
     """Rows in rising time with unit quaternions; a row of the same time as the one before goes."""
     if not (np.all(np.isfinite(times)) and np.all(np.isfinite(poses))):
         raise DemonstrationError(f"{path}: a number is not finite")
@@ -119,7 +121,7 @@ def clean(times, poses, path):
 READERS = {".csv": read_csv, ".h5": read_hdf5, ".hdf5": read_hdf5}
 
 
-def convert(path, target, command):
+def convert(path: str, target: np.ndarray | None, command: str) -> demonstration.Demonstration:
     """Demonstration of a file; `target` is the tag's pose (7,) in the arm's base, or None."""
     kind = os.path.splitext(path)[1].lower()
     if kind == ".bag":
@@ -138,7 +140,7 @@ def convert(path, target, command):
                                        poses, {"made by": command})
 
 
-def pose(text):
+def pose(text: str) -> np.ndarray:
     numbers = np.array([float(word) for word in text.split()])
     if numbers.shape != (7,) or not np.all(np.isfinite(numbers)):
         raise argparse.ArgumentTypeError("must be seven numbers: x y z qx qy qz qw")
@@ -148,7 +150,7 @@ def pose(text):
     return np.append(numbers[:3], numbers[3:] / norm)
 
 
-def main(words):
+def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="import_demonstration", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter)

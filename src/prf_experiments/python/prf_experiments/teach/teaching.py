@@ -26,7 +26,7 @@ RECORDED = (topics.CLOCK + topics.SENSORS + topics.GROUND_TRUTH + ["tag_detectio
             + topics.TRANSFORMS + topics.EXEMPT + [topics.GUIDE])
 
 
-def moving_part(times, poses):
+def moving_part(times: np.ndarray, poses: np.ndarray) -> slice:
     """Slice of the rows from the first to the last motion of the hand."""
     steps = np.diff(times)
     speed = np.linalg.norm(np.diff(poses[:, :3], axis=0), axis=1) / steps
@@ -37,7 +37,7 @@ def moving_part(times, poses):
     return slice(int(moving[0]), int(moving[-1]) + 2)
 
 
-def resample(times, poses, rate):
+def resample(times: np.ndarray, poses: np.ndarray, rate: float) -> tuple[np.ndarray, np.ndarray]:
     """Poses at even times from the first to the last row, both of them included."""
     count = max(2, int(round((times[-1] - times[0]) * rate)) + 1)
     at = np.linspace(times[0], times[-1], count)
@@ -73,7 +73,7 @@ def _target(path, tag_id):
     return geometry.make(np.mean(seen[:, :3], axis=0), geometry.rotation(seen).mean())
 
 
-def convert(path, command, tag_id=0):
+def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstration:
     """Demonstration from a bag of joint_states, tf and tag_detections."""
     target = _target(path, tag_id)
     stamps = _stamps(path, "joint_states")
@@ -89,7 +89,7 @@ def convert(path, command, tag_id=0):
                                        {"made by": command})
 
 
-def teach(folder, seed):
+def teach(folder: str, seed: int) -> str:
     """Records folder/teach.bag with the arm led to the target."""
     lesson = session.Session(
         folder=folder, bag="teach.bag", launch_file=session.packaged("launch", "teach.launch"),
@@ -110,7 +110,7 @@ def teach(folder, seed):
     return os.path.join(folder, "teach.bag")
 
 
-def teach_main(words):
+def teach_main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="run_teach", description="Leads the simulated arm to the target by the hand and "
         "writes the demonstration.")

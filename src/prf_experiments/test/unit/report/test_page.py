@@ -2,7 +2,6 @@
 import unittest
 
 import jinja2
-
 from prf_experiments.report import page
 from prf_experiments.report.page import Markup, Section
 

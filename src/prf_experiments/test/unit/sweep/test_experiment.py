@@ -14,6 +14,7 @@ class Arguments(unittest.TestCase):
     def refused(self, *words):
         error = io.StringIO()
         with contextlib.redirect_stderr(error):
+            code: object = None
             try:
                 code = experiment.main(["--check", *words])
             except SystemExit as exit_:

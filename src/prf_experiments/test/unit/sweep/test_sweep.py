@@ -159,7 +159,7 @@ class Board(unittest.TestCase):
         for _ in range(4):
             now[0] += 60.0
             board.tell(DEFAULTS, content)
-        self.assertAlmostEqual(board.left(), 6 * 60.0)
+        self.assertEqual(board.left(), 6 * 60.0)
         self.assertIn("6/12", board.bar())
         self.assertIn("about 6 min left", board.bar())
         self.assertIn("(12 MB)", out.getvalue())
