@@ -67,12 +67,12 @@ class Refusals(unittest.TestCase):
         self.assertIn("/absent.csv", self.refused("demonstration:=/absent.csv"))
 
     def test_demonstration_that_is_too_short(self):
-        path = self.skill(lambda lines: lines[:8])
+        path = self.skill(lambda lines: lines[:7])
         self.assertIn("at least", self.refused(f"demonstration:={path}"))
 
     def test_demonstration_that_is_not_finite(self):
         path = self.skill(lambda lines: lines[:-1] + [lines[-1].rpartition(",")[0] + ",nan"])
-        self.assertIn("not finite", self.refused(f"demonstration:={path}"))
+        self.assertIn("a finite number", self.refused(f"demonstration:={path}"))
 
     def test_results_folder_that_is_a_file(self):
         run = runs.run("run_trial", f"results:={SKILL}")

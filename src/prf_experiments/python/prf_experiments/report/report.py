@@ -35,7 +35,7 @@ def draw(bag: str, data: recording.Recording,
     executed = target.relative_to(base_at, hand_at)
     _, tag_at, hand_at = target.matched(data.tag, data.end_effector)
     executed_before_tag = target.relative_to(tag_at, hand_at)
-    demonstrated_before_tag = target.relative_to(demonstrated.target_pose, demonstrated.poses)
+    demonstrated_before_tag = target.relative_to(demonstrated.target, demonstrated.poses)
     plans = [plan.positions for plan in data.plans if len(plan.positions)]
     last_plan = plans[-1] if plans else np.empty((0, 3))
     camera_stamps, camera_at, tag_at = target.matched(data.camera, data.tag)

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Sequence
 
+from prf_experiments.run import names
 from prf_experiments.run.arguments import (
     Argument,
     ArgumentError,
@@ -15,16 +16,13 @@ from prf_experiments.run.arguments import (
     show,
 )
 
-PREDICTORS = ["periodic", "ukf", "paper", "constant_velocity", "constant_acceleration",
-              "oscillation", "ekf", "autoregressive", "sines", "hold"]
-
 # Given to trial.launch, and part of every result's name.
 NAMED = {
     "motion": Argument("light", **choice_or_file("none", "light", "heavy", "as_printed",
                                                  endings=(".yaml", ".csv")),
                        meaning="how the platform moves; with scenario:=cart none"),
     "gait": Argument("stand", **choice("stand", "stand_stiff", "step"), meaning="what the legs do"),
-    "planner": Argument("elte", **choice("elte", "lte", "elastic_map", "dmp"),
+    "planner": Argument("elte", **choice(*names.planner_names()),
                         meaning="how the skill is adapted"),
     "framework": Argument(True, **boolean(),
                           meaning="false: adapt once, to the first forecast, execute blindly"),
@@ -39,7 +37,7 @@ LAUNCHED = {
                             meaning="recorded motion of the body over the deck"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
-    "predictor": Argument("periodic", **choice(*PREDICTORS),
+    "predictor": Argument("periodic", **choice(*names.predictor_names()),
                           meaning="how the target's motion is predicted"),
     "variation": Argument(1.0, **number(0.0, 1.0),
                           meaning="how much the seed changes box, placement, friction, noise"),

@@ -25,6 +25,7 @@ from prf_experiments.run import session
 from prf_experiments.teach import demonstration, teaching
 from prf_experiments.teach.demonstration import DemonstrationError
 
+COLUMNS = ["time", "x", "y", "z", "qx", "qy", "qz", "qw"]
 CAMERA_IN_HAND = [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0]
 TAG_BEFORE_CAMERA = [0.0, 0.0, judge.STAND_OFF, 1.0, 0.0, 0.0, 0.0]  # upright, facing the camera
 # The arm's recording of the ELTE repository (github.com/brenhertel/ELTE, scripts/elte_3d_box.py reads
@@ -49,10 +50,10 @@ def read_csv(path: str) -> tuple[np.ndarray, np.ndarray]:
     except (OSError, UnicodeDecodeError) as error:
         raise DemonstrationError(f"{path}: cannot be read: {error}") from None
     names = [name.strip() for name in rows[0]] if rows else []
-    missing = [name for name in demonstration.COLUMNS if name not in names]
+    missing = [name for name in COLUMNS if name not in names]
     if missing:
         raise DemonstrationError(f"{path}: no column " + ", ".join(missing))
-    order = [names.index(name) for name in demonstration.COLUMNS]
+    order = [names.index(name) for name in COLUMNS]
     try:
         table = np.array([[float(row[column]) for column in order] for row in rows[1:]])
     except (ValueError, IndexError):
@@ -136,8 +137,7 @@ def convert(path: str, target: np.ndarray | None, command: str) -> demonstration
     times, poses = teaching.resample(times[part], poses[part], teaching.RATE)
     if target is None:
         target = target_at_stand_off(poses[-1])
-    return demonstration.Demonstration(recording.PLANNING_FRAME, teaching.HAND_FRAME, target, times,
-                                       poses, {"made by": command})
+    return demonstration.make(times, poses, target, command)
 
 
 def pose(text: str) -> np.ndarray:

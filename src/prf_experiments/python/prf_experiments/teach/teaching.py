@@ -13,7 +13,6 @@ from prf_experiments.record import frames, recording, topics
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration
 
-HAND_FRAME = "j2s7s300_end_effector"
 RATE = 20.0  # Hz, of the demonstration
 MOVING_SPEED = 0.01  # m/s, slower the hand counts as still
 MOVING_RATE = 0.01  # rad/s
@@ -78,15 +77,14 @@ def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstra
     target = _target(path, tag_id)
     stamps = _stamps(path, "joint_states")
     hand = frames.lookup(frames.load(path, "/robot_state_publisher"), recording.PLANNING_FRAME,
-                         HAND_FRAME, stamps)
+                         demonstration.HAND_FRAME, stamps)
     known = np.all(np.isfinite(hand), axis=1)
     if known.sum() < 2:
-        raise demonstration.DemonstrationError(f"{path}: tf has no pose of {HAND_FRAME}")
+        raise demonstration.DemonstrationError(f"{path}: tf has no pose of {demonstration.HAND_FRAME}")
     times, hand = 1e-9 * (stamps[known] - stamps[known][0]), hand[known]
     part = moving_part(times, hand)
     times, poses = resample(times[part], hand[part], RATE)
-    return demonstration.Demonstration(recording.PLANNING_FRAME, HAND_FRAME, target, times, poses,
-                                       {"made by": command})
+    return demonstration.make(times, poses, target, command)
 
 
 def teach(folder: str, seed: int) -> str:

@@ -18,10 +18,9 @@ from prf_experiments.teach import demonstration
 from prf_experiments import geometry
 
 VOID = {"meta", "br", "hr", "img"}
-SKILL = demonstration.Demonstration(
-    "base", "hand", geometry.IDENTITY, 0.1 * np.arange(20),
-    np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20),
-               np.tile([0, 0, 0, 1.0], (20, 1))]))
+SKILL = demonstration.make(
+    0.1 * np.arange(20), np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20),
+                                    np.tile([0, 0, 0, 1.0], (20, 1))]), geometry.IDENTITY, "test")
 
 
 class Balance(HTMLParser):

@@ -42,13 +42,12 @@ class Demonstration(unittest.TestCase):
         read = self.read(HEADER + "\n".join(ROWS))
         self.assertEqual((read.frame, read.child_frame), ("base", "hand"))
         np.testing.assert_allclose(read.times[-1], 1.1)
-        np.testing.assert_allclose(read.goal_in_target()[:3], [0.11 - 0.8, 0.0, -0.6])
+        np.testing.assert_allclose(read.goal_in_target[:3], [0.11 - 0.8, 0.0, -0.6])
 
     def test_survives_writing_and_reading(self):
         turned = Rotation.from_euler("y", 0.1 * np.arange(20))
         poses = geometry.make(np.random.default_rng(1).normal(size=(20, 3)), turned)
-        made = demonstration.Demonstration("base", "hand", geometry.IDENTITY,
-                                           0.05 * np.arange(20), poses, {"made by": "a: test"})
+        made = demonstration.make(0.05 * np.arange(20), poses, geometry.IDENTITY, "a: test")
         demonstration.write(self.path, made)
         read = demonstration.read(self.path)
         np.testing.assert_allclose(read.poses, poses, atol=1e-9)
@@ -68,7 +67,7 @@ class Demonstration(unittest.TestCase):
             demonstration.read(self.path)
 
     def test_refuses_an_empty_file(self):
-        self.assert_refused("frame", "")
+        self.assert_refused("no header line", "")
 
     def test_refuses_a_missing_header_line(self):
         for key in ("frame", "child_frame", "target_pose"):
@@ -76,25 +75,29 @@ class Demonstration(unittest.TestCase):
             self.assert_refused(f"# {key}:", "\n".join(lines + ROWS))
 
     def test_refuses_too_few_rows(self):
-        self.assert_refused("at least", HEADER + "\n".join(ROWS[:9]))
+        self.assert_refused("at least 3", HEADER + "\n".join(ROWS[:2]))
+        poses = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (9, 1))
+        poses[:, 0] = 0.1 * np.arange(9)
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "9 rows, must be at least 10"):
+            demonstration.make(0.1 * np.arange(9), poses, geometry.IDENTITY, "test")
 
     def test_refuses_values_that_are_not_finite(self):
-        self.assert_refused("row 6 is not finite", self.with_row(5, "0.5,nan,0,0,0,0,0,1"))
-        self.assert_refused("row 6 is not finite", self.with_row(5, "0.5,0,inf,0,0,0,0,1"))
-        self.assert_refused("target_pose", HEADER.replace("0.8", "nan") + "\n".join(ROWS))
+        self.assert_refused(":10: column 'x' is 'nan'", self.with_row(5, "0.5,nan,0,0,0,0,0,1"))
+        self.assert_refused(":10: column 'y' is 'inf'", self.with_row(5, "0.5,0,inf,0,0,0,0,1"))
+        self.assert_refused(":3: column 'x' is 'nan'", HEADER.replace("0.8", "nan") + "\n".join(ROWS))
 
     def test_refuses_time_that_does_not_rise(self):
-        self.assert_refused("does not rise at row 6", self.with_row(5, "0.4,0,0,0,0,0,0,1"))
+        self.assert_refused(":10: column 'time' is 0.400000, must be above", self.with_row(5, "0.4,0,0,0,0,0,0,1"))
         self.assert_refused("start at 0", self.with_row(0, "0.01,0,0,0,0,0,0,1"))
 
     def test_refuses_a_quaternion_that_is_not_unit(self):
-        self.assert_refused("row 6", self.with_row(5, "0.5,0,0,0,0,0,0,0"))
-        self.assert_refused("target_pose", HEADER.replace("0 0 0 1", "0 0 0 2") + "\n".join(ROWS))
+        self.assert_refused(":10: columns 'qx' to 'qw'", self.with_row(5, "0.5,0,0,0,0,0,0,0"))
+        self.assert_refused(":3: columns 'qx' to 'qw'", HEADER.replace("0 0 0 1", "0 0 0 2") + "\n".join(ROWS))
 
     def test_refuses_words_and_missing_columns(self):
-        self.assert_refused("could not convert", self.with_row(5, "0.5,a,0,0,0,0,0,1"))
+        self.assert_refused(":10: column 'x' is 'a'", self.with_row(5, "0.5,a,0,0,0,0,0,1"))
         self.assert_refused(self.path, self.with_row(5, "0.5,0,0"))
-        self.assert_refused("columns", HEADER.replace("time,", "t,") + "\n".join(ROWS))
+        self.assert_refused(":4: header is 't,x", HEADER.replace("time,", "t,") + "\n".join(ROWS))
 
 
 class PackagedDemonstration(unittest.TestCase):
@@ -103,7 +106,7 @@ class PackagedDemonstration(unittest.TestCase):
                             "inspect_box.csv")
         skill = demonstration.read(path)
         camera_in_hand = [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0]
-        camera = geometry.compose(skill.goal_in_target(), camera_in_hand)
+        camera = geometry.compose(skill.goal_in_target, camera_in_hand)
         np.testing.assert_allclose(camera[:3], [0.0, 0.0, 0.30], atol=0.010)
         straight = geometry.rotation(camera) * Rotation.from_quat([1.0, 0.0, 0.0, 0.0]).inv()
         self.assertLess(straight.magnitude(), np.radians(2.0))

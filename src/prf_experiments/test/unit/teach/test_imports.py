@@ -94,7 +94,7 @@ class Imports(unittest.TestCase):
         self.assert_is_the_motion(imports.convert(self.csv(), None, "test"))
 
     def test_unsaid_target_is_at_the_stand_off_on_the_cameras_axis_upright(self):
-        target = imports.convert(self.csv(), None, "test").target_pose
+        target = imports.convert(self.csv(), None, "test").target
         hand = motion()[-1]
         camera = geometry.compose(hand, imports.CAMERA_IN_HAND)
         lateral, along = judge.tag_in_camera(camera[None], target[None])
@@ -112,7 +112,7 @@ class Imports(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn(out, told.getvalue())
         found = demonstration.read(out)
-        np.testing.assert_allclose(found.target_pose, [0.8, 0.0, 0.6, 0.0, 0.0, 0.0, 1.0])
+        np.testing.assert_allclose(found.target, [0.8, 0.0, 0.6, 0.0, 0.0, 0.0, 1.0])
         self.assert_is_the_motion(found)
 
     def test_what_cannot_be_used_is_named(self):

@@ -43,7 +43,7 @@ class Teaching(unittest.TestCase):
     def test_places_the_target_by_detections_and_tf(self):
         data = synthetic.make_recording(5.0)
         hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
-        target = self.convert(data, hand).target_pose
+        target = self.convert(data, hand).target
         camera = geometry.compose(hand[-1], [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
         expected = geometry.compose(camera, data.detections[-1])
         np.testing.assert_allclose(target[:3], expected[:3], atol=1e-9)
