@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from setuptools import setup
-
 from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
 
 setup(**generate_distutils_setup(packages=["prf_studies"], package_dir={"": "python"}))

@@ -9,8 +9,7 @@ import unittest
 import genpy.message
 
 from prf_msgs import enums, interfaces
-from prf_msgs.msg import (ControlStatus, ExecuteSkillResult, ExecutionProgress, SkillTrajectory,
-                          TargetForecast)
+from prf_msgs.msg import ControlStatus, ExecuteSkillResult, ExecutionProgress, SkillTrajectory, TargetForecast
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 TRUTH = ["ground_truth/platform", "ground_truth/base", "ground_truth/tag", "ground_truth/camera",
@@ -119,15 +118,15 @@ class WhatIsMadeFromTheTable(unittest.TestCase):
 
     def test_example_of_the_readme_runs(self):
         path = os.path.join(ROOT, "src", "prf_msgs", "README.md")
-        example = re.search(r"```python\n(.*?)```", open(path, encoding="utf-8").read(), re.DOTALL)
-        for line in example[1].splitlines():
+        [example] = re.findall(r"```python\n(.*?)```", open(path, encoding="utf-8").read(), re.DOTALL)
+        for line in example.splitlines():
             code, _, comment = line.partition("# ")
             if comment:
-                self.assertEqual(repr(eval(code, self.scope)), comment)  # noqa: S307
+                self.assertEqual(repr(eval(code, self.scope)), comment)
             else:
-                exec(code, self.scope)  # noqa: S102
+                exec(code, self.scope)
 
-    scope = {}
+    scope: dict = {}
 
 
 class Enums(unittest.TestCase):

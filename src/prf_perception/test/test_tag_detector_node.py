@@ -13,9 +13,10 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from prf_msgs.msg import TagDetectionArray
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
+
+from prf_msgs.msg import TagDetectionArray
 
 PACKAGE = "prf_perception"
 WIDTH, HEIGHT, FOCAL = 640, 480, 600.0
@@ -126,7 +127,7 @@ class TagDetectorNode(unittest.TestCase):
         self.assertEqual(self.transforms, [])
 
     def test_two_tags_of_one_id_are_reported_and_one_gives_the_frame(self):
-        reports = []
+        reports: list[DiagnosticArray] = []
         subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, reports.append)
         self.wait(subscriber.get_num_connections)
         self.send(frame(0, columns=(160, 480)))
@@ -192,7 +193,7 @@ class TagDetectorParameters(unittest.TestCase):
                 done = subprocess.run([executable, "__name:=refused"], timeout=20, check=False,
                                       capture_output=True, text=True)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
-                fatal = [l for l in done.stderr.splitlines() if "FATAL" in l]
+                fatal = [line for line in done.stderr.splitlines() if "FATAL" in line]
                 self.assertEqual(len(fatal), 1, done.stderr)
                 self.assertIn(name, fatal[0])
 

@@ -91,7 +91,8 @@ void detect_all(const Params& params) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Finds tags in a stream of binary PGM images (P5, 8 bit) on standard input. Prints CSV: image, "
+      "Finds tags in a stream of binary PGM images (P5, 8 bit) on standard input. Prints CSV: "
+      "image, "
       "id, pose x y z (m) qx qy qz qw of the tag in the optical frame, and its covariance, 36 "
       "numbers row by row.");
   Params params;

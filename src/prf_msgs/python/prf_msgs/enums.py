@@ -11,4 +11,4 @@ def names(message_type):
               if name.isupper() and isinstance(value, int)}
     if sorted(values.values()) != list(range(len(values))):
         raise ValueError(f"constants of {message_type.__name__} are {values}, must be 0, 1, 2, ...")
-    return sorted(values, key=values.get)
+    return sorted(values, key=lambda name: values[name])

@@ -2,6 +2,7 @@
 """The table of topics, interfaces.yaml, and the lists that follow from it."""
 import os
 from dataclasses import dataclass
+from typing import Any
 
 import yaml
 
@@ -56,13 +57,16 @@ class Node:
     shown: str = ""  # for people; empty: the name
 
 
+def _with_tuples(row: dict[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
+
+
 class Interfaces:
     """The whole table. Names in its lists have no leading slash unless a list says so."""
 
-    def __init__(self, content):
+    def __init__(self, content: dict[str, Any]):
         try:
-            self.topics = [Topic(**{key: tuple(value) if isinstance(value, list) else value
-                                    for key, value in row.items()}) for row in content["topics"]]
+            self.topics = [Topic(**_with_tuples(row)) for row in content["topics"]]
             self.nodes = [Node(**row) for row in content["nodes"]]
         except TypeError as error:
             raise InterfaceError(f"interfaces.yaml: {error}") from None

@@ -8,14 +8,15 @@ import subprocess
 import tempfile
 import unittest
 
-import roslib.packages
 import rosbag
+import roslib.packages
 import rospkg
 import rospy
 import yaml
 from geometry_msgs.msg import TransformStamped
-from prf_msgs.msg import TagDetection, TagDetectionArray
 from tf2_msgs.msg import TFMessage
+
+from prf_msgs.msg import TagDetection, TagDetectionArray
 
 BASE, CAMERA = "j2s7s300_link_base", "camera_optical_frame"
 HORIZONS_S = [0.1, 0.25, 0.5, 1.0, 2.0]
