@@ -20,9 +20,7 @@ OUTPUTS = ["tag_detections", "target/forecast", "skill/trajectory", "execution/p
 
 
 class Table(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.table = interfaces.load()
+    table = interfaces.load()
 
     def test_a_bag_holds_these_topics_in_this_order(self):
         self.assertEqual(self.table.recorded, ["clock", *SENSORS, *TRUTH, *OUTPUTS, "tf",
