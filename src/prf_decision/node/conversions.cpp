@@ -20,6 +20,19 @@ geometry_msgs::Transform to_transform(const Pose& pose) {
   return transform;
 }
 
+std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
+                                          const prf_msgs::SkillTrajectory& message) {
+  require_frame(message.header.frame_id, robot.planning_frame);
+  auto trajectory = std::make_shared<Trajectory>();
+  for (const auto& pose : message.poses) trajectory->poses.push_back(prf_ros::to_core(pose));
+  for (const auto& time : message.time_from_start) {
+    trajectory->times.push_back(prf_ros::to_core(time));
+  }
+  trajectory->goal_in_target = prf_ros::to_core(message.goal_in_target);
+  trajectory->validate();
+  return trajectory;
+}
+
 }  // namespace
 
 std::optional<int> arm_joint(const RobotNames& robot, const std::string& name) {
@@ -48,17 +61,26 @@ std::shared_ptr<const TargetForecast> to_core(const RobotNames& robot,
   return std::make_shared<TargetForecast>(prf_ros::to_core(message));
 }
 
-std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
-                                          const prf_msgs::SkillTrajectory& message) {
-  require_frame(message.header.frame_id, robot.planning_frame);
-  auto trajectory = std::make_shared<Trajectory>();
-  for (const auto& pose : message.poses) trajectory->poses.push_back(prf_ros::to_core(pose));
-  for (const auto& time : message.time_from_start) {
-    trajectory->times.push_back(prf_ros::to_core(time));
+bool has_plan(const prf_msgs::SkillTrajectory& message) {
+  using prf_msgs::SkillTrajectory;
+  return message.status != SkillTrajectory::REFUSED && message.status != SkillTrajectory::NO_PLAN;
+}
+
+PlanResult to_plan_result(const RobotNames& robot, const prf_msgs::SkillTrajectory& message) {
+  PlanResult result;
+  result.stamp = prf_ros::to_core(message.header.stamp);
+  result.demonstration_switch = message.demonstration_switch;
+  result.refused = message.status == prf_msgs::SkillTrajectory::REFUSED;
+  if (!has_plan(message)) {
+    result.message = message.message;
+    return result;
   }
-  trajectory->goal_in_target = prf_ros::to_core(message.goal_in_target);
-  trajectory->validate();
-  return trajectory;
+  try {
+    result.plan = to_core(robot, message);
+  } catch (const std::invalid_argument& error) {
+    result.message = error.what();
+  }
+  return result;
 }
 
 prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& progress) {
@@ -78,14 +100,14 @@ prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& 
   message.demonstration_switch = progress.demonstration.number;
   return message;
 }
-static_assert(static_cast<int>(State::kWaiting) == prf_msgs::ExecutionProgress::WAITING);
-static_assert(static_cast<int>(State::kForward) == prf_msgs::ExecutionProgress::FORWARD);
-static_assert(static_cast<int>(State::kPause) == prf_msgs::ExecutionProgress::PAUSE);
-static_assert(static_cast<int>(State::kReverse) == prf_msgs::ExecutionProgress::REVERSE);
-static_assert(static_cast<int>(State::kTracking) == prf_msgs::ExecutionProgress::TRACKING);
-static_assert(static_cast<int>(State::kRetract) == prf_msgs::ExecutionProgress::RETRACT);
-static_assert(static_cast<int>(State::kDone) == prf_msgs::ExecutionProgress::DONE);
-static_assert(static_cast<int>(State::kStopped) == prf_msgs::ExecutionProgress::STOPPED);
+static_assert(static_cast<int>(ExecutionState::kWaiting) == prf_msgs::ExecutionProgress::WAITING);
+static_assert(static_cast<int>(ExecutionState::kForward) == prf_msgs::ExecutionProgress::FORWARD);
+static_assert(static_cast<int>(ExecutionState::kPause) == prf_msgs::ExecutionProgress::PAUSE);
+static_assert(static_cast<int>(ExecutionState::kReverse) == prf_msgs::ExecutionProgress::REVERSE);
+static_assert(static_cast<int>(ExecutionState::kTracking) == prf_msgs::ExecutionProgress::TRACKING);
+static_assert(static_cast<int>(ExecutionState::kRetract) == prf_msgs::ExecutionProgress::RETRACT);
+static_assert(static_cast<int>(ExecutionState::kDone) == prf_msgs::ExecutionProgress::DONE);
+static_assert(static_cast<int>(ExecutionState::kStopped) == prf_msgs::ExecutionProgress::STOPPED);
 
 trajectory_msgs::MultiDOFJointTrajectory to_message(const RobotNames& robot, Stamp stamp,
                                                     const std::optional<MovingPose>& setpoint) {

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "params.hpp"
-#include "prf_decision/decision.hpp"
+#include "prf_decision/skill_executive.hpp"
 
 namespace prf_decision {
 
@@ -26,8 +26,10 @@ namespace prf_decision {
 
 [[nodiscard]] std::shared_ptr<const TargetForecast> to_core(
     const RobotNames& robot, const prf_msgs::TargetForecast& message);
-[[nodiscard]] std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
-                                                        const prf_msgs::SkillTrajectory& message);
+[[nodiscard]] bool has_plan(const prf_msgs::SkillTrajectory& message);
+// A plan that must not be executed becomes none, with the reason.
+[[nodiscard]] PlanResult to_plan_result(const RobotNames& robot,
+                                        const prf_msgs::SkillTrajectory& message);
 
 [[nodiscard]] prf_msgs::ExecutionProgress to_message(const RobotNames& robot,
                                                      const Progress& progress);

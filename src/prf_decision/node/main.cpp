@@ -22,8 +22,8 @@ class DecisionNode {
   explicit DecisionNode(const DecisionNodeParams& params)
       : params_(params),
         gate_(params.gate),
-        decision_(params.decision),
-        action_(node_, params.robot, decision_),
+        executive_(params.decision),
+        action_(node_, params.robot, executive_),
         reconfigurable_(ros::NodeHandle("~"), reconfigurable_numbers(params.decision),
                         [this](const ReconfigurableParams::Values& values) { tune(values); }) {
     const auto hints = ros::TransportHints().tcpNoDelay();
@@ -31,11 +31,10 @@ class DecisionNode {
         node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
         node_.subscribe("target/forecast", kQueue, &DecisionNode::on_forecast, this, hints),
         node_.subscribe("skill/trajectory", kQueue, &DecisionNode::on_trajectory, this, hints)};
-    // After subscribing: who sees this publisher may start, nothing will be missed.
-    setpoint_publisher_ =
+    // After subscribing: whoever sees this publisher may start, nothing will be missed.
+    setpoints_ =
         node_.advertise<trajectory_msgs::MultiDOFJointTrajectory>("execution/setpoint", kQueue);
-    progress_publisher_ =
-        node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
+    progresses_ = node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("decision", this, &DecisionNode::diagnose);
     action_.start();
@@ -46,7 +45,7 @@ class DecisionNode {
 
   void tune(const ReconfigurableParams::Values& values) {
     const DecisionParams tuned = with_reconfigured(params_.decision, values);
-    decision_.tune(tuned);
+    executive_.tune(tuned);
     params_.decision = tuned;
   }
 
@@ -62,39 +61,34 @@ class DecisionNode {
     try {
       arrival.forecast = to_core(params_.robot, message);
     } catch (const std::invalid_argument& error) {
-      count("target/forecast refused");
-      ROS_WARN_THROTTLE(kWarnPeriod, "target/forecast refused: %s", error.what());
+      refuse("target/forecast", error.what());
     }
     account("target/forecast", gate_.push_forecast(std::move(arrival)));
     process();
   }
 
   void on_trajectory(const prf_msgs::SkillTrajectory& message) {
-    const bool refused = message.status == prf_msgs::SkillTrajectory::REFUSED;
-    PlanAnswer answer{prf_ros::to_core(message.header.stamp), nullptr, "",
-                      message.demonstration_switch, refused};
-    if (refused || message.status == prf_msgs::SkillTrajectory::NO_PLAN) {
-      answer.message = message.message;
+    PlanResult result = to_plan_result(params_.robot, message);
+    if (!has_plan(message)) {
       count("skill/trajectory without a plan");
-    } else {
-      try {
-        answer.plan = to_core(params_.robot, message);
-      } catch (const std::invalid_argument& error) {
-        answer.message = error.what();
-        count("skill/trajectory refused");
-        ROS_WARN_THROTTLE(kWarnPeriod, "skill/trajectory refused: %s", error.what());
-      }
+    } else if (!result.plan) {
+      refuse("skill/trajectory", result.message);
     }
-    account("skill/trajectory", gate_.push_answer(std::move(answer)));
+    account("skill/trajectory", gate_.push_plan_result(std::move(result)));
     process();
   }
 
-  void account(const std::string& topic, Push push) {
-    if (push == Push::kOld) count(topic + " dropped as old");
-    if (push == Push::kFuture) count(topic + " dropped as future");
-    if (push != Push::kNewRun) return;
+  void refuse(const std::string& topic, const std::string& reason) {
+    count(topic + " refused");
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s refused: %s", topic.c_str(), reason.c_str());
+  }
+
+  void account(const std::string& topic, PushResult push) {
+    if (push == PushResult::kOld) count(topic + " dropped as old");
+    if (push == PushResult::kFarAhead) count(topic + " dropped as far ahead");
+    if (push != PushResult::kNewRun) return;
     ROS_WARN("clock of %s went back: new run", topic.c_str());
-    decision_ = Decision(params_.decision);
+    executive_ = SkillExecutive(params_.decision);
     action_.end_run();
     last_ = Progress();
     diagnostics_.force_update();
@@ -102,11 +96,11 @@ class DecisionNode {
 
   void process() {
     while (const auto tick = gate_.next()) {
-      if (tick->forecast_stale) report_silent("target/forecast");
-      if (tick->plan_stale) report_silent("skill/trajectory");
-      const auto [progress, setpoint] = decision_.update(*tick);
-      progress_publisher_.publish(to_message(params_.robot, progress));
-      setpoint_publisher_.publish(to_message(params_.robot, tick->stamp, setpoint));
+      if (tick->forecast_silent) report_silent("target/forecast");
+      if (tick->planner_silent) report_silent("skill/trajectory");
+      const auto [progress, setpoint] = executive_.update(*tick);
+      progresses_.publish(to_message(params_.robot, progress));
+      setpoints_.publish(to_message(params_.robot, tick->stamp, setpoint));
       if (progress.state != last_.state) {
         ROS_INFO("%s -> %s: %s", name(last_.state), name(progress.state), progress.reason.c_str());
       }
@@ -119,28 +113,26 @@ class DecisionNode {
 
   void report_silent(const std::string& topic) {
     count("ticks without " + topic);
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent for more than %.2f s", topic.c_str(),
-                      to_seconds(params_.gate.max_wait));
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent, see max_wait", topic.c_str());
   }
 
   void count(const std::string& what) { ++counters_[what]; }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                   std::string(name(last_.state)) + " " + last_.reason);
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, executive_.describe());
     for (const auto& [what, number] : counters_) status.add(what, number);
   }
 
   ros::NodeHandle node_;
   DecisionNodeParams params_;
   TickGate gate_;
-  Decision decision_;
+  SkillExecutive executive_;
   SkillAction action_;
   ReconfigurableParams reconfigurable_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
-  ros::Publisher progress_publisher_;
-  ros::Publisher setpoint_publisher_;
+  ros::Publisher progresses_;
+  ros::Publisher setpoints_;
   std::vector<ros::Subscriber> subscribers_;
   diagnostic_updater::Updater diagnostics_;
 };

@@ -19,6 +19,7 @@ Duration checked_seconds(const std::string& name, double value) {
 GuardParams load_guards(prf_ros::PrivateParameters& values) {
   GuardParams guards;
   const auto coast = values.numbers("coast_limits", 3);
+  guards.max_gap = checked_seconds("max_wait", values.number("max_wait"));
   guards.pause_after = checked_seconds("coast_limits[0]", coast[0]);
   guards.reverse_after = checked_seconds("coast_limits[1]", coast[1]);
   guards.stop_after = checked_seconds("coast_limits[2]", coast[2]);
@@ -30,20 +31,25 @@ GuardParams load_guards(prf_ros::PrivateParameters& values) {
   return guards;
 }
 
+ReferenceParams load_reference(prf_ros::PrivateParameters& values) {
+  ReferenceParams params;
+  params.adaptation = values.flag("framework") ? Adaptation::kContinuous : Adaptation::kOnce;
+  params.lead = checked_seconds("lead", values.number("lead"));
+  params.approach_length = values.number("approach_length");
+  params.tracking_tolerance = values.number("tracking_tolerance");
+  const auto speed = values.numbers("catch_up_speed", 2);
+  params.catch_up = {speed[0], speed[1], values.number("catch_up_time")};
+  return params;
+}
+
 DecisionParams load_decision(prf_ros::PrivateParameters& values) {
   const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
   DecisionParams params;
-  params.framework = values.flag("framework");
+  params.reference = load_reference(values);
   params.autostart = values.flag("autostart");
-  params.max_gap = seconds("max_wait");
-  params.lead = seconds("lead");
   params.hold_time = seconds("hold_time");
   params.dwell_time = seconds("dwell_time");
   params.time_limit = seconds("time_limit");
-  params.tracking_tolerance = values.number("tracking_tolerance");
-  params.approach_length = values.number("approach_length");
-  const auto speed = values.numbers("catch_up_speed", 2);
-  params.catch_up = {speed[0], speed[1], values.number("catch_up_time")};
   params.guards = load_guards(values);
   return params;
 }
@@ -80,12 +86,14 @@ DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
 
 std::vector<prf_ros::ReconfigurableParams::Parameter> reconfigurable_numbers(
     const DecisionParams& params) {
-  return {{"dwell_time", to_seconds(params.dwell_time), "s, least time in a state for the HMM"},
-          {"hold_time", to_seconds(params.hold_time), "s, to track until done; next execution"},
-          {"lead", to_seconds(params.lead), "s, the tracked goal is so much after the tick"},
-          {"catch_up_time", params.catch_up.time_constant, "s, with which a small gap closes"},
-          {"tracking_tolerance", params.tracking_tolerance, "m, that counts as tracking"},
-          {"max_target_speed", params.guards.max_target_speed, "m/s, faster ones are refused"}};
+  return {
+      {"dwell_time", to_seconds(params.dwell_time), "s, least time in a state for the HMM"},
+      {"hold_time", to_seconds(params.hold_time), "s, to track until done; next execution"},
+      {"lead", to_seconds(params.reference.lead), "s, the tracked goal is so much after the tick"},
+      {"catch_up_time", params.reference.catch_up.time_constant,
+       "s, with which a small gap closes"},
+      {"tracking_tolerance", params.reference.tracking_tolerance, "m, that counts as tracking"},
+      {"max_target_speed", params.guards.max_target_speed, "m/s, faster ones are refused"}};
 }
 
 DecisionParams with_reconfigured(const DecisionParams& params,
@@ -93,9 +101,9 @@ DecisionParams with_reconfigured(const DecisionParams& params,
   DecisionParams changed = params;
   changed.dwell_time = checked_seconds("dwell_time", values.at("dwell_time"));
   changed.hold_time = checked_seconds("hold_time", values.at("hold_time"));
-  changed.lead = checked_seconds("lead", values.at("lead"));
-  changed.catch_up.time_constant = values.at("catch_up_time");
-  changed.tracking_tolerance = values.at("tracking_tolerance");
+  changed.reference.lead = checked_seconds("lead", values.at("lead"));
+  changed.reference.catch_up.time_constant = values.at("catch_up_time");
+  changed.reference.tracking_tolerance = values.at("tracking_tolerance");
   changed.guards.max_target_speed = values.at("max_target_speed");
   return changed;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "prf_decision/decision.hpp"
+#include "prf_decision/skill_executive.hpp"
 #include "prf_decision/tick_gate.hpp"
 
 namespace prf_decision {

@@ -13,8 +13,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kStill = 0.02;                          // rad/s, of every joint of a standing arm
-constexpr Duration kMaxBraking = milliseconds(1000);     // data time
+// rad/s, of every joint of a standing arm: 0.2 mrad in a tick.
+constexpr double kStill = 0.02;
+// Data time. The joints of the Jaco2 (at most 0.84 rad/s) brake at 4 rad/s^2 within 0.21 s.
+constexpr Duration kMaxBraking = milliseconds(1000);
 constexpr Duration kFeedbackPeriod = milliseconds(100);  // data time, while the state lasts
 
 prf_msgs::ExecuteSkillResult result_of(std::uint8_t code, const std::string& text) {
@@ -24,16 +26,17 @@ prf_msgs::ExecuteSkillResult result_of(std::uint8_t code, const std::string& tex
   return result;
 }
 
-Order order_of(const prf_msgs::ExecuteSkillGoal& goal) {
+SkillGoal to_core(const prf_msgs::ExecuteSkillGoal& goal) {
   return {prf_ros::to_core(goal.time_limit), prf_ros::to_core(goal.hold_time), goal.resume != 0,
           goal.demonstration};
 }
 
 }  // namespace
 
-SkillAction::SkillAction(const ros::NodeHandle& node, const RobotNames& robot, Decision& decision)
+SkillAction::SkillAction(const ros::NodeHandle& node, const RobotNames& robot,
+                         SkillExecutive& executive)
     : robot_(robot),
-      decision_(decision),
+      executive_(executive),
       server_(
           node, "execute_skill", [this](Server::GoalHandle goal) { on_goal(goal); },
           [this](Server::GoalHandle goal) { on_cancel(goal); }, false) {}
@@ -48,9 +51,9 @@ void SkillAction::see_joints(const sensor_msgs::JointState& joints) {
 }
 
 std::string SkillAction::refusal(const prf_msgs::ExecuteSkillGoal& goal) const {
-  if (!decision_.can_begin()) return "an execution is under way";
+  if (!executive_.can_begin()) return "an execution is under way";
   try {
-    order_of(goal).validate();
+    to_core(goal).validate();
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -64,57 +67,55 @@ void SkillAction::on_goal(Server::GoalHandle goal) {
     goal.setRejected(result_of(Result::REFUSED, reason), reason);
     return;
   }
-  decision_.begin(order_of(*goal.getGoal()));
-  goal_ = goal;
-  stopped_.reset();
-  feedback_given_.reset();
-  pending_ = decision_.is_asking();
-  if (!pending_) goal_->setAccepted();
+  executive_.begin(to_core(*goal.getGoal()));
+  goal_ = Current{goal, executive_.is_requesting(), {}, {}};
+  if (!goal_->pending) goal_->handle.setAccepted();
 }
 
 void SkillAction::on_cancel(Server::GoalHandle goal) {
-  if (goal_ && goal == *goal_) decision_.preempt();
+  if (goal_ && goal == goal_->handle) executive_.preempt();
 }
 
-// Asked of the planner, until the tick at which it has answered.
+// A pending goal, at the tick at which the planner has answered.
 void SkillAction::decide_pending(const Progress& progress) {
-  if (decision_.is_asking()) return;
-  pending_ = false;
+  if (executive_.is_requesting()) return;
+  goal_->pending = false;
+  Server::GoalHandle& goal = goal_->handle;
   if (progress.refusal.empty()) {
-    goal_->setAccepted();
+    goal.setAccepted();
     return;
   }
-  const bool recalled = goal_->getGoalStatus().status == actionlib_msgs::GoalStatus::RECALLING;
+  const bool recalled = goal.getGoalStatus().status == actionlib_msgs::GoalStatus::RECALLING;
   const auto result = result_of(recalled ? Result::PREEMPTED : Result::REFUSED, progress.refusal);
   if (recalled) {
-    goal_->setCanceled(result, progress.refusal);
+    goal.setCanceled(result, progress.refusal);
   } else {
     ROS_WARN("goal of execute_skill refused: %s", progress.refusal.c_str());
-    goal_->setRejected(result, progress.refusal);
+    goal.setRejected(result, progress.refusal);
   }
   goal_.reset();
 }
 
 void SkillAction::update(const Progress& progress) {
-  if (goal_ && pending_) decide_pending(progress);
-  if (!goal_ || pending_) return;
+  if (goal_ && goal_->pending) decide_pending(progress);
+  if (!goal_ || goal_->pending) return;
   give_feedback(progress);
-  if (progress.state == State::kDone) {
-    goal_->setSucceeded(result_of(Result::DONE, progress.reason), progress.reason);
+  if (progress.state == ExecutionState::kDone) {
+    goal_->handle.setSucceeded(result_of(Result::DONE, progress.reason), progress.reason);
     goal_.reset();
-  } else if (progress.state == State::kStopped) {
-    if (!stopped_) stopped_ = progress.stamp;
-    const bool braking = arm_moves_ && progress.stamp - *stopped_ < kMaxBraking;
+  } else if (progress.state == ExecutionState::kStopped) {
+    if (!goal_->stopped) goal_->stopped = progress.stamp;
+    const bool braking = arm_moves_ && progress.stamp - *goal_->stopped < kMaxBraking;
     if (!braking) give_up(progress);
   }
 }
 
 void SkillAction::give_up(const Progress& progress) {
   if (progress.cause == Event::kPreempted) {
-    goal_->setCanceled(result_of(Result::PREEMPTED, progress.reason), progress.reason);
+    goal_->handle.setCanceled(result_of(Result::PREEMPTED, progress.reason), progress.reason);
   } else {
     const auto code = progress.cause == Event::kTimeUp ? Result::TIME_UP : Result::TARGET_LOST;
-    goal_->setAborted(result_of(code, progress.reason), progress.reason);
+    goal_->handle.setAborted(result_of(code, progress.reason), progress.reason);
   }
   goal_.reset();
 }
@@ -123,24 +124,27 @@ void SkillAction::end_run() {
   if (!goal_) return;
   const std::string text = "the data's clock went back: new run";
   const auto result = result_of(Result::RUN_ENDED, text);
-  pending_ ? goal_->setRejected(result, text) : goal_->setAborted(result, text);
+  if (goal_->pending) {
+    goal_->handle.setRejected(result, text);
+  } else {
+    goal_->handle.setAborted(result, text);
+  }
   goal_.reset();
-  pending_ = false;
 }
 
 void SkillAction::give_feedback(const Progress& progress) {
-  const bool due = !feedback_given_ || progress.state != feedback_state_ ||
-                   progress.stamp - *feedback_given_ >= kFeedbackPeriod;
+  const bool due = !goal_->feedback_given || progress.state != goal_->feedback_state ||
+                   progress.stamp - *goal_->feedback_given >= kFeedbackPeriod;
   if (!due) return;
-  feedback_given_ = progress.stamp;
-  feedback_state_ = progress.state;
+  goal_->feedback_given = progress.stamp;
+  goal_->feedback_state = progress.state;
   prf_msgs::ExecuteSkillFeedback feedback;
   feedback.state = static_cast<std::uint8_t>(progress.state);
   feedback.reason = progress.reason;
-  feedback.cursor = progress.share;
-  feedback.goal_distance = progress.goal_distance.value_or(-1);
-  feedback.axis_distance = progress.axis_distance.value_or(-1);
-  goal_->publishFeedback(feedback);
+  feedback.cursor = progress.fraction;
+  feedback.goal_distance = progress.goal_distance ? progress.goal_distance->distance : -1;
+  feedback.axis_distance = progress.goal_distance ? progress.goal_distance->axis : -1;
+  goal_->handle.publishFeedback(feedback);
 }
 
 }  // namespace prf_decision

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The action execute_skill. A goal orders one execution from the decision; it takes effect
-// with the next tick that is processed. One goal at a time: others are rejected with the reason. A
-// goal that names a demonstration is pending until the planner has taken that up or refused it.
+// The action execute_skill. A goal begins one execution with the next tick that is processed. One
+// goal at a time: others are rejected with the reason. A goal that names a demonstration is pending
+// until the planner has accepted or refused that.
 //
 // A cancelled goal stops the execution at the next tick; the arm brakes within its limits, and the
 // goal is PREEMPTED once the arm stands, at the latest kMaxBraking of data time later.
@@ -15,13 +15,13 @@
 #include <string>
 
 #include "params.hpp"
-#include "prf_decision/decision.hpp"
+#include "prf_decision/skill_executive.hpp"
 
 namespace prf_decision {
 
 class SkillAction {
  public:
-  SkillAction(const ros::NodeHandle& node, const RobotNames& robot, Decision& decision);
+  SkillAction(const ros::NodeHandle& node, const RobotNames& robot, SkillExecutive& executive);
 
   // Once all else of the node is ready.
   void start() { server_.start(); }
@@ -34,6 +34,15 @@ class SkillAction {
   using Server = actionlib::ActionServer<prf_msgs::ExecuteSkillAction>;
   using Result = prf_msgs::ExecuteSkillResult;
 
+  // The goal that was not rejected, until it has its result.
+  struct Current {
+    Server::GoalHandle handle;
+    bool pending = false;  // until the planner has answered
+    std::optional<Stamp> stopped;
+    std::optional<Stamp> feedback_given;
+    ExecutionState feedback_state = ExecutionState::kWaiting;
+  };
+
   void on_goal(Server::GoalHandle goal);
   void on_cancel(Server::GoalHandle goal);
   [[nodiscard]] std::string refusal(const prf_msgs::ExecuteSkillGoal& goal) const;
@@ -42,13 +51,9 @@ class SkillAction {
   void give_up(const Progress& progress);
 
   RobotNames robot_;
-  Decision& decision_;
+  SkillExecutive& executive_;
   bool arm_moves_ = false;
-  std::optional<Server::GoalHandle> goal_;
-  bool pending_ = false;
-  std::optional<Stamp> stopped_;
-  std::optional<Stamp> feedback_given_;
-  State feedback_state_ = State::kWaiting;
+  std::optional<Current> goal_;
   Server server_;
 };
 

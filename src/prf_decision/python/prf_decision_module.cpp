@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The HMM for Python: the same code that the node runs. A run is an (n, 3) array of velocities, a
-// row of NaN where the target was not seen, and n labels 0, 1, 2 or -1 (not known).
+// row of NaN where the target was not measured, and n labels 0, 1, 2 or -1 (not known).
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
@@ -52,7 +52,7 @@ Labels to_python(const std::vector<Intent>& states) {
   return labels;
 }
 
-// What the node believes after each observation, and ln P of all.
+// The posterior after each observation, as the node filters it, and ln P of all.
 std::pair<Velocities, double> filter(const HmmParams& parameters, const Velocities& velocities) {
   const HmmFilter hmm(parameters);
   HmmBelief belief = hmm.initial_belief();
@@ -65,8 +65,8 @@ std::pair<Velocities, double> filter(const HmmParams& parameters, const Velociti
   return {posterior, belief.log_likelihood};
 }
 
-Learned learn_runs(const std::vector<std::pair<Velocities, Labels>>& runs, int restarts,
-                   std::uint32_t seed, bool free_means, const OnIteration& on_iteration) {
+LearningResult learn_runs(const std::vector<std::pair<Velocities, Labels>>& runs, int restarts,
+                          std::uint32_t seed, bool free_means, const OnIteration& on_iteration) {
   LearningParams options;
   options.restarts = restarts;
   options.seed = seed;
@@ -88,12 +88,12 @@ PYBIND11_MODULE(prf_decision, module) {
       .def_readwrite("mean", &HmmParams::mean)
       .def_readwrite("covariance", &HmmParams::covariance)
       .def("validate", &HmmParams::validate);
-  py::class_<Learned>(module, "Learned")
-      .def_readonly("parameters", &Learned::parameters)
-      .def_readonly("log_likelihood", &Learned::log_likelihood)
-      .def_readonly("converged", &Learned::converged)
-      .def_readonly("restart", &Learned::restart)
-      .def_readonly("refused", &Learned::refused);
+  py::class_<LearningResult>(module, "LearningResult")
+      .def_readonly("parameters", &LearningResult::parameters)
+      .def_readonly("log_likelihood", &LearningResult::log_likelihood)
+      .def_readonly("converged", &LearningResult::converged)
+      .def_readonly("restart", &LearningResult::restart)
+      .def_readonly("refused", &LearningResult::refused);
 
   module.def("load_hmm", &load_hmm, py::arg("path"));
   module.def("hmm_text", &hmm_text, py::arg("parameters"), py::arg("comment") = "");
@@ -101,7 +101,7 @@ PYBIND11_MODULE(prf_decision, module) {
   module.def(
       "most_probable_path",
       [](const HmmParams& parameters, const Velocities& velocities) {
-        const StatePath path = most_probable_path(parameters, to_core(velocities, {}));
+        const ViterbiResult path = most_probable_path(parameters, to_core(velocities, {}));
         return std::pair(to_python(path.states), path.log_probability);
       },
       py::arg("parameters"), py::arg("velocities"));

@@ -25,8 +25,8 @@ MovingPose carried(const MovingPose& carrier, const MovingPose& frame_in_carrier
 
 }  // namespace
 
-void Approach::take(const Trajectory& plan, double cursor, Stamp stamp,
-                    const TargetForecast& forecast) {
+void Approach::update(const Trajectory& plan, double cursor, Stamp stamp,
+                      const TargetForecast& forecast) {
   const Duration elapsed = plan.times.back() - time_to_go(plan, cursor);
   std::vector<Pose> anchors(plan.poses.size());
   for (std::size_t k = 0; k < anchors.size(); ++k) {
@@ -40,7 +40,7 @@ void Approach::take(const Trajectory& plan, double cursor, Stamp stamp,
   anchors_ = {std::move(anchors), plan.times, plan.goal_in_target};
 }
 
-double Approach::share(double cursor, double length) const {
+double Approach::weight(double cursor, double length) const {
   if (length == 0 || plan_.poses.empty()) return 0;
   const Pose hand = hand_at(anchors_, cursor, Direction::kStand).pose;
   const double distance = (hand.position - plan_.goal_in_target.position).norm();
@@ -52,7 +52,7 @@ MovingPose Approach::hand(double cursor, Direction direction, const MovingPose& 
                           double length) const {
   const MovingPose planned = hand_at(plan_, cursor, direction);
   const MovingPose with_target = carried(target, hand_at(anchors_, cursor, direction));
-  const double w = share(cursor, length);
+  const double w = weight(cursor, length);
   const auto blend = [w](const Eigen::Vector3d& a, const Eigen::Vector3d& b) -> Eigen::Vector3d {
     return (1 - w) * a + w * b;
   };

@@ -4,14 +4,23 @@
 #include <cmath>
 #include <jaco_kinematics/jaco_kinematics.hpp>
 #include <prf_core/require.hpp>
+#include <sstream>
+#include <utility>
 
-#include "text.hpp"
+#include "sentence.hpp"
 
 namespace prf_decision {
 
 using prf_core::require;
 
+namespace {
+
+Violation hazard(std::string reason) { return {Event::kHazard, std::move(reason)}; }
+
+}  // namespace
+
 void GuardParams::validate() const {
+  prf_core::require_positive("max_wait", to_seconds(max_gap), "s");
   prf_core::require_positive("coast_limits[0]", to_seconds(pause_after), "s");
   require(reverse_after > pause_after, "coast_limits[1]", to_seconds(reverse_after),
           "> coast_limits[0] = " + std::to_string(to_seconds(pause_after)) + " s");
@@ -25,48 +34,113 @@ void GuardParams::validate() const {
   }
 }
 
-std::optional<Objection> object_to_age(const GuardParams& guards, Duration age) {
-  const auto unseen = [&](Event event, Duration limit) {
-    return Objection{event, sentence("target unseen for ", to_seconds(age), " s, limit ",
-                                     to_seconds(limit), " s")};
+std::optional<Violation> check_has_goal(const GuardParams&, const GuardInput& input) {
+  if (input.has_goal) return std::nullopt;
+  return hazard("no goal yet");
+}
+
+std::optional<Violation> check_ticks(const GuardParams& params, const GuardInput& input) {
+  const Duration gap = input.since_last_tick;
+  if (gap <= params.max_gap) return std::nullopt;
+  return hazard(sentence("joint_states silent for ", to_seconds(gap), " s"));
+}
+
+std::optional<Violation> check_measured(const GuardParams&, const GuardInput& input) {
+  if (input.measured) return std::nullopt;
+  return hazard("target not seen yet");
+}
+
+std::optional<Violation> check_age(const GuardParams& params, const GuardInput& input) {
+  const Duration age = input.tick - *input.measured;
+  const auto too_old = [&](Event event, Duration limit) {
+    return Violation{event, sentence("no measurement of the target for ", to_seconds(age),
+                                     " s, limit ", to_seconds(limit), " s")};
   };
-  if (age > guards.stop_after) return unseen(Event::kLost, guards.stop_after);
-  if (age > guards.reverse_after) return unseen(Event::kOverdue, guards.reverse_after);
-  if (age > guards.pause_after) return unseen(Event::kHazard, guards.pause_after);
+  if (age > params.stop_after) return too_old(Event::kLost, params.stop_after);
+  if (age > params.reverse_after) return too_old(Event::kOverdue, params.reverse_after);
+  if (age > params.pause_after) return too_old(Event::kHazard, params.pause_after);
   return std::nullopt;
 }
 
-std::optional<Objection> object_to_forecast(const GuardParams& guards,
-                                            const TargetForecast& forecast) {
-  for (const auto& [horizon, target, covariance] : forecast.predictions) {
-    const double distance = (target.pose.position - guards.shoulder).norm();
-    if (distance > guards.workspace_radius) {
-      return Objection{Event::kHazard,
-                       sentence("forecast ", distance, " m from the shoulder in ",
-                                to_seconds(horizon), " s, limit ", guards.workspace_radius, " m")};
+std::optional<Violation> check_forecast_heard(const GuardParams&, const GuardInput& input) {
+  if (!input.forecast_silent) return std::nullopt;
+  const Duration silence = input.tick - input.forecast->stamp;
+  return hazard(sentence("forecast silent for ", to_seconds(silence), " s"));
+}
+
+std::optional<Violation> check_status(const GuardParams&, const GuardInput& input) {
+  const TargetStatus status = input.forecast->status;
+  if (status == TargetStatus::kTracking || status == TargetStatus::kCoasting) return std::nullopt;
+  return hazard("predictor has lost the target");
+}
+
+std::optional<Violation> check_forecast(const GuardParams& params, const GuardInput& input) {
+  for (const auto& [horizon, target, covariance] : input.forecast->predictions) {
+    const double distance = (target.pose.position - params.shoulder).norm();
+    if (distance > params.workspace_radius) {
+      return hazard(sentence("forecast ", distance, " m from the shoulder in ", to_seconds(horizon),
+                             " s, limit ", params.workspace_radius, " m"));
     }
     const double speed = target.linear_velocity.norm();
-    if (speed > guards.max_target_speed) {
-      return Objection{Event::kHazard,
-                       sentence("forecast speed ", speed, " m/s in ", to_seconds(horizon),
-                                " s, limit ", guards.max_target_speed, " m/s")};
+    if (speed > params.max_target_speed) {
+      return hazard(sentence("forecast speed ", speed, " m/s in ", to_seconds(horizon),
+                             " s, limit ", params.max_target_speed, " m/s"));
     }
   }
   return std::nullopt;
 }
 
-std::optional<Objection> object_to_goal(const GuardParams& guards, const Pose& hand_goal) {
-  const double distance = (hand_goal.position - guards.shoulder).norm();
-  if (distance > guards.max_reach) {
-    return Objection{Event::kHazard, sentence("goal ", distance, " m from the shoulder, reach ",
-                                              guards.max_reach, " m")};
+std::optional<Violation> check_has_plan(const GuardParams&, const GuardInput& input) {
+  if (input.plan) return std::nullopt;
+  return hazard("no plan yet" + (input.no_plan ? ": " + *input.no_plan : ""));
+}
+
+std::optional<Violation> check_planner_heard(const GuardParams&, const GuardInput& input) {
+  if (!input.planner_silent) return std::nullopt;
+  return hazard("planner silent");
+}
+
+std::optional<Violation> check_plan_result(const GuardParams&, const GuardInput& input) {
+  if (!input.no_plan) return std::nullopt;
+  return hazard("planner has no plan: " + *input.no_plan);
+}
+
+std::optional<Violation> check_goal(const GuardParams& params, const GuardInput& input) {
+  const Pose goal = goal_at(*input.forecast, *input.plan, input.goal_time).pose;
+  const double distance = (goal.position - params.shoulder).norm();
+  if (distance > params.max_reach) {
+    return hazard(
+        sentence("goal ", distance, " m from the shoulder, reach ", params.max_reach, " m"));
   }
   const Eigen::Isometry3d pose =
-      Eigen::Translation3d(hand_goal.position) * hand_goal.orientation.normalized();
+      Eigen::Translation3d(goal.position) * goal.orientation.normalized();
   if (jaco_kinematics::any_inverse(pose).status == jaco_kinematics::IkStatus::kSolved) {
     return std::nullopt;
   }
-  return Objection{Event::kHazard, "no joint position within limits gives the goal"};
+  return hazard("no joint position within limits gives the goal");
+}
+
+std::optional<Violation> check_guards(const GuardParams& params, const GuardInput& input,
+                                      bool adapted_once) {
+  for (const Guard& guard : kGuards) {
+    if (adapted_once && !guard.adapted_once) continue;
+    if (auto violation = guard.check(params, input)) return violation;
+  }
+  return std::nullopt;
+}
+
+MovingPose goal_at(const TargetForecast& forecast, const Trajectory& plan, Stamp time) {
+  return prf_core::rigidly_attached(predicted_target(forecast, time).target, plan.goal_in_target);
+}
+
+std::string guards_markdown() {
+  std::ostringstream table;
+  table << "| guard | violation | event | also adapted once |\n|---|---|---|---|\n";
+  for (const Guard& guard : kGuards) {
+    table << "| " << guard.name << " | " << guard.violation << " | " << guard.events << " | "
+          << (guard.adapted_once ? "yes" : "no") << " |\n";
+  }
+  return table.str();
 }
 
 }  // namespace prf_decision

@@ -37,19 +37,19 @@ bool any_label(const std::vector<Sequence>& runs) {
   });
 }
 
-[[noreturn]] void report_dead(std::size_t state, double weight) {
+[[noreturn]] void refuse_state(std::size_t state, double weight) {
   std::ostringstream text;
   text << kIntentNames[state] << " holds " << weight << " observations, must hold at least "
-       << kLeastShare;
+       << kLeastObservations;
   throw std::runtime_error(text.str());
 }
 
-Eigen::Matrix3d row_shares(const Eigen::Matrix3d& counts, const Eigen::Matrix3d& otherwise) {
-  Eigen::Matrix3d shares = otherwise;
+Eigen::Matrix3d row_fractions(const Eigen::Matrix3d& counts, const Eigen::Matrix3d& otherwise) {
+  Eigen::Matrix3d fractions = otherwise;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    if (counts.row(i).sum() > 0) shares.row(i) = counts.row(i) / counts.row(i).sum();
+    if (counts.row(i).sum() > 0) fractions.row(i) = counts.row(i) / counts.row(i).sum();
   }
-  return shares;
+  return fractions;
 }
 
 // The second moment of all velocities, m^2/s^2.
@@ -60,7 +60,7 @@ Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
     sum += o * o.transpose();
     count += 1;
   });
-  if (count < kIntents * kLeastShare) {
+  if (count < kIntents * kLeastObservations) {
     throw std::invalid_argument("there are " + std::to_string(static_cast<int>(count)) +
                                 " velocities, must be at least 12");
   }
@@ -76,11 +76,11 @@ HmmParams first_guess(const Eigen::Matrix3d& moment, bool free_means, int restar
   for (Eigen::Vector3d& mean : guess.mean) mean.setZero();
   if (restart > 0) {
     std::uniform_real_distribution<double> log_size(std::log(0.1), std::log(3.0));
-    std::uniform_real_distribution<double> share(0.5, 0.99);
+    std::uniform_real_distribution<double> fraction(0.5, 0.99);
     std::normal_distribution<double> normal;
     for (double& value : size) value = std::exp(log_size(random));
     std::sort(size.begin(), size.end());
-    stay = share(random);
+    stay = fraction(random);
     for (std::size_t i = 0; free_means && i < kIntents; ++i) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         guess.mean[i][axis] = std::sqrt(moment(axis, axis)) * normal(random);
@@ -114,15 +114,15 @@ HmmParams in_order_of_speed(const HmmParams& parameters) {
   return sorted;
 }
 
-Learned climb(HmmParams parameters, const std::vector<Sequence>& runs,
-              const LearningParams& options, int restart, const OnIteration& on_iteration) {
+LearningResult climb(HmmParams parameters, const std::vector<Sequence>& runs,
+                     const LearningParams& options, int restart, const OnIteration& on_iteration) {
   const double observations = std::accumulate(
       runs.begin(), runs.end(), 0.0,
       [](double sum, const Sequence& run) { return sum + static_cast<double>(run.size()); });
-  Learned learned;
+  LearningResult learned;
   learned.restart = restart;
   for (int iteration = 0; iteration < options.max_iterations && !learned.converged; ++iteration) {
-    const EmStep step = em_step(parameters, runs, options.free_means);
+    const EmStepResult step = em_step(parameters, runs, options.free_means);
     if (on_iteration) on_iteration(restart, iteration, step.log_likelihood);
     if (!learned.log_likelihood.empty()) {
       const double rise = step.log_likelihood - learned.log_likelihood.back();
@@ -145,12 +145,13 @@ void LearningParams::validate() const {
   require(tolerance > 0 && std::isfinite(tolerance), "tolerance", tolerance, "> 0");
 }
 
-EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs, bool free_means) {
+EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& runs,
+                     bool free_means) {
   std::vector<Eigen::Matrix3Xd> posterior;
   Totals totals;
   for (Eigen::Vector3d& sum : totals.sum) sum.setZero();
   for (const Sequence& run : runs) {
-    Smoothing smoothing = smooth(parameters, run);
+    SmoothingResult smoothing = smooth(parameters, run);
     totals.first += smoothing.posterior.col(0);
     totals.transitions += smoothing.transitions;
     totals.log_likelihood += smoothing.log_likelihood;
@@ -163,13 +164,13 @@ EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs, b
     }
   });
 
-  EmStep step{parameters, totals.log_likelihood};
+  EmStepResult step{parameters, totals.log_likelihood};
   HmmParams& next = step.parameters;
   next.initial = totals.first / totals.first.sum();
-  next.transition = row_shares(totals.transitions, parameters.transition);
+  next.transition = row_fractions(totals.transitions, parameters.transition);
   for (std::size_t i = 0; i < kIntents; ++i) {
     const double weight = totals.weight[static_cast<Eigen::Index>(i)];
-    if (weight < kLeastShare) report_dead(i, weight);
+    if (weight < kLeastObservations) refuse_state(i, weight);
     if (free_means) next.mean[i] = totals.sum[i] / weight;
     next.covariance[i].setZero();
   }
@@ -186,17 +187,17 @@ EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs, b
   return step;
 }
 
-Learned learn(const std::vector<Sequence>& runs, const LearningParams& options,
-              const OnIteration& on_iteration) {
+LearningResult learn(const std::vector<Sequence>& runs, const LearningParams& options,
+                     const OnIteration& on_iteration) {
   options.validate();
   const Eigen::Matrix3d moment = pooled_moment(runs);
   std::mt19937 random(options.seed);
-  Learned best;
+  LearningResult best;
   std::vector<std::string> refused;
   for (int restart = 0; restart < options.restarts; ++restart) {
     const HmmParams guess = first_guess(moment, options.free_means, restart, random);
     try {
-      Learned learned = climb(guess, runs, options, restart, on_iteration);
+      LearningResult learned = climb(guess, runs, options, restart, on_iteration);
       const bool better =
           best.log_likelihood.empty() || learned.log_likelihood.back() > best.log_likelihood.back();
       if (better) best = std::move(learned);

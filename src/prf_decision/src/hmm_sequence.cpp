@@ -45,14 +45,14 @@ Eigen::Index draw_from(const Eigen::Vector3d& probabilities, double uniform) {
 
 }  // namespace
 
-Smoothing smooth(const HmmParams& parameters, const Sequence& sequence) {
+SmoothingResult smooth(const HmmParams& parameters, const Sequence& sequence) {
   const Eigen::Matrix3Xd log_density = log_densities(parameters, sequence);
   const Eigen::Index n = log_density.cols();
   const Eigen::Matrix3d& a = parameters.transition;
   Eigen::Matrix3Xd density(3, n);  // relative to the largest of the observation
   Eigen::Matrix3Xd alpha(3, n);
   Eigen::VectorXd scale(n);
-  Smoothing result;
+  SmoothingResult result;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double largest = log_density.col(k).maxCoeff();
     density.col(k) = exponential(log_density.col(k).array() - largest);
@@ -76,7 +76,7 @@ Smoothing smooth(const HmmParams& parameters, const Sequence& sequence) {
   return result;
 }
 
-StatePath most_probable_path(const HmmParams& parameters, const Sequence& sequence) {
+ViterbiResult most_probable_path(const HmmParams& parameters, const Sequence& sequence) {
   const Eigen::Matrix3Xd log_density = log_densities(parameters, sequence);
   const Eigen::Index n = log_density.cols();
   const Eigen::Matrix3d log_transition = parameters.transition.array().log();
@@ -92,7 +92,7 @@ StatePath most_probable_path(const HmmParams& parameters, const Sequence& sequen
   }
 
   Eigen::Index state = 0;
-  StatePath path;
+  ViterbiResult path;
   path.log_probability = best.maxCoeff(&state);
   if (path.log_probability == kImpossible) refuse_impossible(0);
   path.states.resize(sequence.size());

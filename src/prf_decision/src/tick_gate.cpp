@@ -8,17 +8,16 @@
 namespace prf_decision {
 namespace {
 
+using prf_core::StampOrder;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Duration kPeriodMargin = milliseconds(5);  // jitter of the camera's stamps
 constexpr Duration kClockJump = seconds(1);          // larger steps are another run or garbage
-constexpr std::size_t kMaxQueued = 1000;             // forecasts and answers without any tick
 
-template <typename Item>
-void enqueue(std::deque<Item>& queue, Item item) {
-  queue.push_back(std::move(item));
-  if (queue.size() > kMaxQueued) queue.pop_front();
+const GateParams& validated(const GateParams& params) {
+  params.validate();
+  return params;
 }
 
 }  // namespace
@@ -30,55 +29,58 @@ void GateParams::validate() const {
   require_positive("max_wait", to_seconds(max_wait), "s");
 }
 
-TickGate::TickGate(const GateParams& parameters) : parameters_(parameters) {
-  parameters_.validate();
-}
+TickGate::TickGate(const GateParams& params)
+    : params_(validated(params)),
+      forecast_silence_(params.max_wait),
+      plan_silence_(params.max_wait) {}
 
-void TickGate::begin_new_run() { *this = TickGate(parameters_); }
+void TickGate::begin_new_run() { *this = TickGate(params_); }
 
 // Forecasts may arrive before the first tick; those of another run are dropped in either order.
 void TickGate::begin_at(Stamp first_tick) {
   first_tick_ = first_tick;
-  const auto foreign = [&](const ForecastArrival& arrival) {
-    return precedes_run(arrival.stamp) || arrival.stamp > first_tick + kClockJump;
-  };
-  forecasts_.erase(std::remove_if(forecasts_.begin(), forecasts_.end(), foreign), forecasts_.end());
-  newest_forecast_.reset();
-  if (!forecasts_.empty()) newest_forecast_ = forecasts_.back().stamp;
+  forecasts_.drop_before(first_tick - kPeriodMargin);
+  forecasts_.drop_after(first_tick + kClockJump);
+  const auto& left = forecasts_.items();
+  forecasts_.clock().restart(left.empty() ? std::nullopt : std::optional(left.back().stamp));
 }
 
-Push TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
-  if (newest_tick_ == stamp) return Push::kOld;
-  const bool new_run = newest_tick_ && stamp < *newest_tick_;
+PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
+  const StampOrder order = ticks_.clock().classify(stamp);
+  if (order == StampOrder::kDuplicate) return PushResult::kOld;
+  const bool new_run = order == StampOrder::kBackwardJump;
   if (new_run) begin_new_run();
-  newest_tick_ = stamp;
+  ticks_.push(stamp, hand);
   if (!first_tick_) begin_at(stamp);
-  ticks_.push_back({stamp, hand});
-  return new_run ? Push::kNewRun : Push::kTaken;
+  return new_run ? PushResult::kNewRun : PushResult::kAccepted;
 }
 
-Push TickGate::push_forecast(ForecastArrival arrival) {
-  if (newest_tick_ && arrival.stamp > *newest_tick_ + kClockJump) return Push::kFuture;
-  const std::optional<Stamp> known = newest_forecast_ ? newest_forecast_ : first_tick_;
-  const bool new_run = known && arrival.stamp < *known - kClockJump;
+PushResult TickGate::push_forecast(ForecastArrival arrival) {
+  const Stamp stamp = arrival.stamp;
+  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  const auto newest = forecasts_.clock().newest();
+  const auto known = newest ? newest : first_tick_;
+  const bool new_run = known && stamp < *known - kClockJump;
   if (new_run) begin_new_run();
-  if (newest_forecast_ && arrival.stamp <= *newest_forecast_) return Push::kOld;
-  if (precedes_run(arrival.stamp)) return Push::kOld;
-  newest_forecast_ = arrival.stamp;
-  forecast_stale_ = false;
-  enqueue(forecasts_, std::move(arrival));
-  return new_run ? Push::kNewRun : Push::kTaken;
+  if (precedes_run(stamp)) return PushResult::kOld;
+  if (forecasts_.push(stamp, std::move(arrival)) != StampOrder::kNewer) return PushResult::kOld;
+  forecast_silence_.heard();
+  return new_run ? PushResult::kNewRun : PushResult::kAccepted;
 }
 
-Push TickGate::push_answer(PlanAnswer answer) {
-  // An answer follows its progress, and that its tick: without one it belongs to another run.
-  if (!first_tick_ || answer.stamp < *first_tick_) return Push::kOld;
-  if (answer.stamp > *newest_tick_ + kClockJump) return Push::kFuture;
-  if (newest_answer_ && answer.stamp <= *newest_answer_) return Push::kOld;
-  newest_answer_ = answer.stamp;
-  plan_stale_ = false;
-  enqueue(answers_, std::move(answer));
-  return Push::kTaken;
+PushResult TickGate::push_plan_result(PlanResult result) {
+  const Stamp stamp = result.stamp;
+  // A result follows its progress, and that its tick: without one it belongs to another run.
+  if (!first_tick_ || stamp < *first_tick_) return PushResult::kOld;
+  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  if (plan_results_.push(stamp, std::move(result)) != StampOrder::kNewer) return PushResult::kOld;
+  plan_silence_.heard();
+  return PushResult::kAccepted;
+}
+
+bool TickGate::is_far_ahead(Stamp stamp) const {
+  const auto newest = ticks_.clock().newest();
+  return newest && stamp > *newest + kClockJump;
 }
 
 bool TickGate::precedes_run(Stamp forecast) const {
@@ -86,43 +88,39 @@ bool TickGate::precedes_run(Stamp forecast) const {
 }
 
 bool TickGate::forecast_may_be_due(Stamp tick) const {
-  const Stamp before_run = *first_tick_ - parameters_.camera_period;
-  const Stamp newest = std::max(newest_forecast_.value_or(before_run), before_run);
-  return tick - parameters_.pipeline_delay >= newest + parameters_.camera_period - kPeriodMargin;
+  const Stamp before_run = *first_tick_ - params_.camera_period;
+  const Stamp newest = std::max(forecasts_.clock().newest().value_or(before_run), before_run);
+  return tick - params_.pipeline_delay >= newest + params_.camera_period - kPeriodMargin;
 }
 
-bool TickGate::answer_is_due() const {
-  return awaited_answer_ && (!newest_answer_ || *newest_answer_ < *awaited_answer_);
+bool TickGate::plan_result_is_due() const {
+  const auto newest = plan_results_.clock().newest();
+  return awaited_plan_result_ && (!newest || *newest < *awaited_plan_result_);
 }
 
 std::optional<Tick> TickGate::next() {
-  if (ticks_.empty()) return std::nullopt;
+  if (ticks_.items().empty()) return std::nullopt;
   Tick tick;
-  tick.stamp = ticks_.front().stamp;
-  tick.hand = ticks_.front().hand;
-  const bool forecast_missing = !forecast_stale_ && forecast_may_be_due(tick.stamp);
-  const bool answer_missing = !plan_stale_ && answer_is_due();
-  if (forecast_missing || answer_missing) {
-    if (*newest_tick_ - tick.stamp <= parameters_.max_wait) return std::nullopt;
-    forecast_stale_ = forecast_stale_ || forecast_missing;
-    plan_stale_ = plan_stale_ || answer_missing;
-  }
-  ticks_.pop_front();
+  tick.stamp = ticks_.items().front().stamp;
+  const Stamp newest = *ticks_.clock().newest();
+  // Both are evaluated: each monitor must learn of its own silence.
+  const bool waits_for_forecast =
+      forecast_may_be_due(tick.stamp) && !forecast_silence_.gives_up(tick.stamp, newest);
+  const bool waits_for_plan = plan_result_is_due() && !plan_silence_.gives_up(tick.stamp, newest);
+  if (waits_for_forecast || waits_for_plan) return std::nullopt;
 
-  while (!forecasts_.empty() &&
-         forecasts_.front().stamp <= tick.stamp - parameters_.pipeline_delay) {
-    tick.forecasts.push_back(std::move(forecasts_.front()));
-    forecasts_.pop_front();
+  tick.hand = ticks_.pop_until(tick.stamp)->message;
+  while (auto forecast = forecasts_.pop_until(tick.stamp - params_.pipeline_delay)) {
+    tick.forecasts.push_back(std::move(forecast->message));
   }
-  while (!answers_.empty() && answers_.front().stamp < tick.stamp) {
-    tick.answer = std::move(answers_.front());
-    answers_.pop_front();
+  while (auto result = plan_results_.pop_until(tick.stamp - Duration{1})) {
+    tick.plan_result = std::move(result->message);
   }
   const bool named = std::any_of(tick.forecasts.begin(), tick.forecasts.end(),
                                  [](const ForecastArrival& arrival) { return arrival.forecast; });
-  if (named) awaited_answer_ = tick.stamp;
-  tick.forecast_stale = forecast_stale_;
-  tick.plan_stale = plan_stale_;
+  if (named) awaited_plan_result_ = tick.stamp;
+  tick.forecast_silent = forecast_silence_.is_silent();
+  tick.planner_silent = plan_silence_.is_silent();
   return tick;
 }
 

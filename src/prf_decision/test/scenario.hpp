@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "prf_decision/decision.hpp"
+#include "prf_decision/skill_executive.hpp"
 
 namespace prf_decision {
 
@@ -66,6 +66,7 @@ inline HmmParams skewed_hmm() {
 
 inline GuardParams usual_guards() {
   GuardParams guards;
+  guards.max_gap = from_seconds(0.3);
   guards.pause_after = from_seconds(0.3);
   guards.reverse_after = from_seconds(1.0);
   guards.stop_after = from_seconds(2.0);
@@ -78,13 +79,12 @@ inline GuardParams usual_guards() {
 
 inline DecisionParams usual_params() {
   DecisionParams parameters;
-  parameters.max_gap = from_seconds(0.3);
-  parameters.lead = from_seconds(0.02);
+  parameters.reference.lead = from_seconds(0.02);
   parameters.hold_time = from_seconds(1.0);
   parameters.dwell_time = from_seconds(0.2);
   parameters.time_limit = from_seconds(20.0);
-  parameters.tracking_tolerance = 0.02;
-  parameters.catch_up = {0.2, 0.5, 0.1};
+  parameters.reference.tracking_tolerance = 0.02;
+  parameters.reference.catch_up = {0.2, 0.5, 0.1};
   parameters.guards = usual_guards();
   parameters.hmm = usual_hmm();
   return parameters;

@@ -7,15 +7,19 @@
 #include <map>
 #include <set>
 
+#include "prf_decision/execution_fsm.hpp"
+
 namespace prf_decision {
 namespace {
 
-constexpr std::array kAllStates{State::kWaiting,  State::kForward, State::kPause, State::kReverse,
-                                State::kTracking, State::kRetract, State::kDone,  State::kStopped};
-constexpr std::array kAllEvents{Event::kCalm,   Event::kUnsteady, Event::kUnstable,
-                                Event::kHazard, Event::kOverdue,  Event::kLost,
-                                Event::kTimeUp, Event::kComplete, Event::kHeld,
-                                Event::kRewind, Event::kPreempted};
+template <typename Enum, std::size_t kCount>
+std::array<Enum, kCount> all() {
+  std::array<Enum, kCount> values;
+  for (std::size_t i = 0; i < kCount; ++i) values[i] = static_cast<Enum>(i);
+  return values;
+}
+const auto kAllStates = all<State, kStates>();
+const auto kAllEvents = all<Event, kEvents>();
 
 bool listed(State state, Event event) {
   return std::any_of(kTable.begin(), kTable.end(),
@@ -25,19 +29,23 @@ bool listed(State state, Event event) {
 // What is demanded of the decision, written down a second time and independently.
 const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kWaiting, Event::kCalm}, State::kForward},
-    {{State::kWaiting, Event::kRewind}, State::kReverse},
+    {{State::kRewindWaiting, Event::kClear}, State::kRewinding},
     {{State::kForward, Event::kUnsteady}, State::kPause},
     {{State::kForward, Event::kUnstable}, State::kReverse},
     {{State::kForward, Event::kHazard}, State::kPause},
     {{State::kForward, Event::kOverdue}, State::kReverse},
     {{State::kForward, Event::kComplete}, State::kTracking},
     {{State::kPause, Event::kCalm}, State::kForward},
-    {{State::kPause, Event::kRewind}, State::kReverse},
     {{State::kPause, Event::kUnstable}, State::kReverse},
     {{State::kPause, Event::kOverdue}, State::kReverse},
+    {{State::kRewindPaused, Event::kClear}, State::kRewinding},
+    {{State::kRewindPaused, Event::kOverdue}, State::kRewinding},
+    {{State::kRewindPaused, Event::kAtStart}, State::kPause},
     {{State::kReverse, Event::kCalm}, State::kForward},
     {{State::kReverse, Event::kUnsteady}, State::kPause},
     {{State::kReverse, Event::kHazard}, State::kPause},
+    {{State::kRewinding, Event::kHazard}, State::kRewindPaused},
+    {{State::kRewinding, Event::kAtStart}, State::kReverse},
     {{State::kTracking, Event::kUnstable}, State::kRetract},
     {{State::kTracking, Event::kHazard}, State::kPause},
     {{State::kTracking, Event::kOverdue}, State::kRetract},
@@ -47,11 +55,17 @@ const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kRetract, Event::kHazard}, State::kPause},
 };
 
+bool rests(State state) {
+  return state == State::kIdle || state == State::kDone || state == State::kStopped;
+}
+
 State demanded(State state, Event event) {
-  const bool final = state == State::kDone || state == State::kStopped;
-  if (!final && event == Event::kTimeUp) return State::kStopped;
-  if (!final && event == Event::kPreempted) return State::kStopped;
-  if (!final && state != State::kWaiting && event == Event::kLost) return State::kStopped;
+  if (rests(state) && event == Event::kBegin) return State::kWaiting;
+  if (rests(state) && event == Event::kBeginAway) return State::kRewindWaiting;
+  if (rests(state)) return state;
+  const bool waits = published(state) == ExecutionState::kWaiting;
+  if (event == Event::kTimeUp || event == Event::kPreempted) return State::kStopped;
+  if (event == Event::kLost && !waits) return State::kStopped;
   const auto found = kDemanded.find({state, event});
   return found == kDemanded.end() ? state : found->second;
 }
@@ -71,7 +85,8 @@ TEST(DecisionFsm, LetsOnlyTheHmmWaitForTheDwellTime) {
   const std::set<Event> from_hmm{Event::kCalm, Event::kUnsteady, Event::kUnstable};
   for (const Row& row : kTable) {
     const bool waits = from_hmm.count(row.event) == 1 && row.from != State::kWaiting;
-    EXPECT_EQ(row.guard == Guard::kDwelled, waits) << name(row.from) << " + " << name(row.event);
+    EXPECT_EQ(row.condition == Condition::kDwelled, waits)
+        << name(row.from) << " + " << name(row.event);
     EXPECT_EQ(step(row.from, row.event, false), waits ? row.from : row.to);
   }
 }
@@ -84,19 +99,70 @@ TEST(DecisionFsm, ListsNoPairTwice) {
   }
 }
 
-TEST(DecisionFsm, NeverLeavesItsFinalStates) {
+TEST(DecisionFsm, LeavesIdleDoneAndStoppedOnlyForANewGoal) {
   for (const Event event : kAllEvents) {
-    EXPECT_EQ(step(State::kDone, event, true), State::kDone);
-    EXPECT_EQ(step(State::kStopped, event, true), State::kStopped);
+    const bool begins = event == Event::kBegin || event == Event::kBeginAway;
+    for (const State state : {State::kIdle, State::kDone, State::kStopped}) {
+      EXPECT_EQ(step(state, event, true) != state, begins) << name(state) << " + " << name(event);
+    }
   }
 }
 
-TEST(DecisionFsm, PrintsOneLinePerRowInBothForms) {
+// The way back before an execution ends at the start only, or with the execution.
+TEST(DecisionFsm, LeavesTheRewindingStatesOnlyAtTheStartOrToStop) {
+  for (const State state : kAllStates) {
+    if (!is_rewinding(state)) continue;
+    for (const Event event : kAllEvents) {
+      const State next = step(state, event, true);
+      EXPECT_TRUE(is_rewinding(next) || next == State::kStopped || event == Event::kAtStart)
+          << name(state) << " + " << name(event);
+      if (event == Event::kAtStart) {
+        EXPECT_EQ(published(next), published(state));
+      }
+    }
+  }
+}
+
+TEST(DecisionFsm, PublishesEveryStateOfTheMessage) {
+  std::set<ExecutionState> shown;
+  for (const State state : kAllStates) shown.insert(published(state));
+  EXPECT_EQ(shown.size(), kExecutionStates);
+  EXPECT_EQ(published(State::kIdle), ExecutionState::kWaiting);
+  EXPECT_EQ(published(State::kRewindPaused), ExecutionState::kPause);
+  EXPECT_EQ(published(State::kRewinding), ExecutionState::kReverse);
+}
+
+TEST(ExecutionFsm, KeepsSinceWhenAndWhyWhereThePublishedStateStays) {
+  const Duration dwell = from_seconds(0.3);
+  ExecutionFsm fsm;
+  EXPECT_TRUE(fsm.can_begin());
+  fsm.begin(from_seconds(10), true);
+  EXPECT_FALSE(fsm.can_begin());
+  EXPECT_TRUE(fsm.fire(from_seconds(10), Event::kClear, "back", dwell));
+  EXPECT_EQ(fsm.describe(), "rewinding (reverse) since 10.00 s by clear: back");
+  EXPECT_TRUE(fsm.fire(from_seconds(10.2), Event::kAtStart, "there", dwell));
+  EXPECT_EQ(fsm.describe(), "reverse (reverse) since 10.00 s by clear: back");
+  EXPECT_FALSE(fsm.fire(from_seconds(10.29), Event::kCalm, "", dwell));
+  EXPECT_TRUE(fsm.fire(from_seconds(10.3), Event::kCalm, "", dwell));
+  EXPECT_EQ(fsm.describe(), "forward (forward) since 10.30 s by calm");
+  fsm.explain("not while it moves forward");
+  EXPECT_EQ(fsm.reason(), "");
+}
+
+TEST(DecisionFsm, PrintsEveryRowInBothForms) {
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t number = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++number;
+    return number;
+  };
   const std::string markdown = fsm_markdown();
   const std::string dot = fsm_dot();
-  EXPECT_EQ(std::count(markdown.begin(), markdown.end(), '\n'),
-            static_cast<std::ptrdiff_t>(kTable.size()) + 2);
-  EXPECT_NE(markdown.find("| forward | unsteady [dwelled] | pause |"), std::string::npos);
+  EXPECT_EQ(count(markdown, "\n"), kStates + 2);
+  EXPECT_EQ(count(markdown, " → "), kTable.size() + 1);
+  EXPECT_NE(markdown.find("| tracking | tracking | unstable [dwelled] → retract, "),
+            std::string::npos);
+  EXPECT_NE(markdown.find("| rewinding | reverse | hazard → rewind paused, "), std::string::npos);
+  EXPECT_EQ(count(dot, " -> "), kTable.size());
   EXPECT_NE(dot.find("tracking -> done [label=\"held\"];"), std::string::npos);
 }
 

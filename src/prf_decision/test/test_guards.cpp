@@ -11,46 +11,111 @@
 namespace prf_decision {
 namespace {
 
-TEST(Guards, GradeTheAgeOfTheTarget) {
-  const GuardParams guards = usual_guards();
-  EXPECT_FALSE(object_to_age(guards, from_seconds(0.3)));
-  EXPECT_EQ(object_to_age(guards, from_seconds(0.31))->event, Event::kHazard);
-  EXPECT_EQ(object_to_age(guards, from_seconds(1.01))->event, Event::kOverdue);
-  EXPECT_EQ(object_to_age(guards, from_seconds(2.01))->event, Event::kLost);
-  EXPECT_EQ(object_to_age(guards, from_seconds(0.62))->reason,
-            "target unseen for 0.62 s, limit 0.30 s");
+constexpr Stamp kNow = std::chrono::seconds(50);
+
+GuardInput input_with(const TargetForecast& forecast) {
+  GuardInput input;
+  input.tick = input.goal_time = kNow;
+  input.has_goal = true;
+  input.measured = kNow;
+  input.forecast = &forecast;
+  return input;
+}
+
+std::optional<Violation> age_violation(double age) {
+  const TargetForecast forecast;
+  GuardInput input = input_with(forecast);
+  input.measured = kNow - from_seconds(age);
+  return check_age(usual_guards(), input);
+}
+
+TEST(Guards, GradeTheAgeOfTheLastMeasurement) {
+  EXPECT_FALSE(age_violation(0.3));
+  EXPECT_EQ(age_violation(0.31)->event, Event::kHazard);
+  EXPECT_EQ(age_violation(1.01)->event, Event::kOverdue);
+  EXPECT_EQ(age_violation(2.01)->event, Event::kLost);
+  EXPECT_EQ(age_violation(0.62)->reason, "no measurement of the target for 0.62 s, limit 0.30 s");
+}
+
+std::string forecast_violation(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
+  const TargetForecast forecast = forecast_of(kNow, position, velocity);
+  const auto violation = check_forecast(usual_guards(), input_with(forecast));
+  return violation ? violation->reason : "";
 }
 
 TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
-  const GuardParams guards = usual_guards();
   const Eigen::Vector3d target(0.9, 0, 0.65);
-  EXPECT_FALSE(object_to_forecast(guards, forecast_of(Stamp{0}, target, {1.4, 0, 0})));
-  EXPECT_EQ(object_to_forecast(guards, forecast_of(Stamp{0}, {2.1, 0, 0.2755}, {0, 0, 0}))->reason,
+  EXPECT_EQ(forecast_violation(target, {1.4, 0, 0}), "");
+  EXPECT_EQ(forecast_violation({2.1, 0, 0.2755}, {0, 0, 0}),
             "forecast 2.10 m from the shoulder in 0.00 s, limit 2.00 m");
-  EXPECT_EQ(
-      object_to_forecast(guards, forecast_of(Stamp{0}, {1.9, 0, 0.2755}, {0.5, 0, 0}))->reason,
-      "forecast 2.15 m from the shoulder in 0.50 s, limit 2.00 m");
-  EXPECT_EQ(object_to_forecast(guards, forecast_of(Stamp{0}, target, {0, 1.6, 0}))->reason,
+  EXPECT_EQ(forecast_violation({1.9, 0, 0.2755}, {0.5, 0, 0}),
+            "forecast 2.15 m from the shoulder in 0.50 s, limit 2.00 m");
+  EXPECT_EQ(forecast_violation(target, {0, 1.6, 0}),
             "forecast speed 1.60 m/s in 0.00 s, limit 1.50 m/s");
 }
 
+// The hand at this position, looking along x.
+std::string goal_violation(const Eigen::Vector3d& position) {
+  Trajectory plan = straight_skill();
+  plan.goal_in_target = {position,
+                         Eigen::Quaterniond(Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY()))};
+  const TargetForecast forecast = forecast_of(kNow, {0, 0, 0}, {0, 0, 0});
+  GuardInput input = input_with(forecast);
+  input.plan = &plan;
+  const auto violation = check_goal(usual_guards(), input);
+  return violation ? violation->reason : "";
+}
+
 TEST(Guards, RefuseAGoalOutOfReach) {
-  const GuardParams guards = usual_guards();
-  Pose goal;
-  goal.orientation = Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitY());  // the hand looks along x
-  goal.position = {0.9, 0, 0.2755};
-  EXPECT_FALSE(object_to_goal(guards, goal));
-  goal.position = {0, -1.02, 0.2755};
-  EXPECT_EQ(object_to_goal(guards, goal)->reason, "goal 1.02 m from the shoulder, reach 0.95 m");
-  goal.position = {0.4, 0, 0.2755};  // the forearm would have to fold into the upper arm
-  EXPECT_EQ(object_to_goal(guards, goal)->reason, "no joint position within limits gives the goal");
+  EXPECT_EQ(goal_violation({0.9, 0, 0.2755}), "");
+  EXPECT_EQ(goal_violation({0, -1.02, 0.2755}), "goal 1.02 m from the shoulder, reach 0.95 m");
+  // The forearm would have to fold into the upper arm.
+  EXPECT_EQ(goal_violation({0.4, 0, 0.2755}), "no joint position within limits gives the goal");
+}
+
+// Each entry spoils one more input, from the last guard of the table to the first: the reported
+// violation is that of the first spoilt guard.
+TEST(Guards, AreTriedInTheOrderOfTheirTable) {
+  const TargetForecast far = forecast_of(kNow, {5, 0, 0.5}, {0, 0, 0});
+  const TargetForecast lost = forecast_of(kNow, {5, 0, 0.5}, {0, 0, 0}, TargetStatus::kLost);
+  const TargetForecast near = forecast_of(kNow, {1.6, 0, 0.5}, {0, 0, 0});
+  const Trajectory plan = straight_skill();
+  GuardInput input = input_with(near);
+  input.plan = &plan;
+  const std::vector<std::pair<std::string, std::function<void(GuardInput&)>>> spoilt{
+      {"goal 1.22 m", [](auto&) {}},
+      {"planner has no plan: x", [](auto& i) { i.no_plan = "x"; }},
+      {"planner silent", [](auto& i) { i.planner_silent = true; }},
+      {"no plan yet: x", [](auto& i) { i.plan = nullptr; }},
+      {"forecast 5.0", [&](auto& i) { i.forecast = &far; }},
+      {"predictor has lost", [&](auto& i) { i.forecast = &lost; }},
+      {"forecast silent", [](auto& i) { i.forecast_silent = true; }},
+      {"no measurement", [](auto& i) { i.measured = kNow - from_seconds(0.4); }},
+      {"target not seen yet", [](auto& i) { i.measured.reset(); }},
+      {"joint_states silent", [](auto& i) { i.since_last_tick = from_seconds(0.31); }},
+      {"no goal yet", [](auto& i) { i.has_goal = false; }}};
+  ASSERT_EQ(spoilt.size(), kGuards.size());
+  for (std::size_t i = 0; i < spoilt.size(); ++i) {
+    const auto& [reason, spoil] = spoilt[i];
+    spoil(input);
+    const auto violation = check_guards(usual_guards(), input, false);
+    ASSERT_TRUE(violation) << reason;
+    EXPECT_EQ(violation->reason.rfind(reason, 0), 0u) << violation->reason;
+    const Guard& guard = kGuards[kGuards.size() - 1 - i];
+    EXPECT_NE(std::string(guard.events).find(name(violation->event)), std::string::npos);
+    // Adapted once, only goal, ticks and plan count.
+    const auto once = check_guards(usual_guards(), input, true);
+    EXPECT_EQ(once && once->reason == violation->reason, guard.adapted_once) << reason;
+  }
 }
 
 TEST(Guards, RefuseTheirOwnParametersByName) {
   const std::vector<std::pair<std::string, std::function<void(GuardParams&)>>> catalogue{
+      {"max_wait", [](auto& g) { g.max_gap = Duration{0}; }},
       {"coast_limits[0]", [](auto& g) { g.pause_after = Duration{0}; }},
       {"coast_limits[1]", [](auto& g) { g.reverse_after = g.pause_after; }},
       {"coast_limits[2]", [](auto& g) { g.stop_after = g.pause_after; }},
+      {"shoulder", [](auto& g) { g.shoulder.x() = NAN; }},
       {"max_reach", [](auto& g) { g.max_reach = 0; }},
       {"workspace_radius", [](auto& g) { g.workspace_radius = INFINITY; }},
       {"max_target_speed", [](auto& g) { g.max_target_speed = NAN; }},

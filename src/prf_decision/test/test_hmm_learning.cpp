@@ -33,7 +33,7 @@ Sequence reference_run() {
 
 TEST(HmmSequence, GivesTheLikelihoodAndPosteriorOfHmmlearn) {
   const Eigen::Vector3d kHmmlearnPosterior(0.842975250566, 0.153881165873, 0.00314358356179);
-  const Smoothing smoothing = smooth(skewed_hmm(), reference_run());
+  const SmoothingResult smoothing = smooth(skewed_hmm(), reference_run());
   EXPECT_NEAR(smoothing.log_likelihood, 331.386664764, kTolerance);
   EXPECT_NEAR((smoothing.posterior.col(150) - kHmmlearnPosterior).norm(), 0, kTolerance);
 }
@@ -44,7 +44,7 @@ TEST(HmmSequence, GivesTheViterbiPathOfHmmlearn) {
       "221112211122110221112211121111211111000000000000000000000000000000000000000"
       "000000000000000000000000010000000011122112211111111121112211122111221112000"
       "000000000000000000000000000000000000000000000000000000000000000000000011021";
-  const StatePath path = most_probable_path(skewed_hmm(), reference_run());
+  const ViterbiResult path = most_probable_path(skewed_hmm(), reference_run());
   EXPECT_NEAR(path.log_probability, 291.056357661, kTolerance);
   std::string states;
   for (const Intent state : path.states) states += std::to_string(static_cast<int>(state));
@@ -64,7 +64,7 @@ TEST(HmmLearning, TakesTheStepsOfHmmlearn) {
 
   HmmParams hmm = skewed_hmm();
   for (const double log_likelihood : kHmmlearnLikelihood) {
-    const EmStep step = em_step(hmm, {reference_run()}, true);
+    const EmStepResult step = em_step(hmm, {reference_run()}, true);
     EXPECT_NEAR(step.log_likelihood, log_likelihood, kTolerance);
     hmm = step.parameters;
   }
@@ -76,15 +76,15 @@ TEST(HmmLearning, TakesTheStepsOfHmmlearn) {
   }
 }
 
-TEST(HmmSequence, EndsWithThePosteriorOfTheFilterAndPassesOverUnseenTargetsLikeIt) {
+TEST(HmmSequence, EndsWithThePosteriorOfTheFilterAndPredictsWithoutMeasurementsLikeIt) {
   Sequence run = without_labels(draw(skewed_hmm(), 50, 3));
-  for (const std::size_t unseen : {0u, 5u, 6u, 30u}) run[unseen].velocity.reset();
+  for (const std::size_t missing : {0u, 5u, 6u, 30u}) run[missing].velocity.reset();
   const HmmFilter filter(skewed_hmm());
   HmmBelief belief = filter.initial_belief();
   for (const Observation& o : run) {
     belief = o.velocity ? filter.observe(belief, *o.velocity) : filter.predict(belief);
   }
-  const Smoothing smoothing = smooth(skewed_hmm(), run);
+  const SmoothingResult smoothing = smooth(skewed_hmm(), run);
   EXPECT_NEAR((smoothing.posterior.col(49) - belief.posterior).norm(), 0, 1e-12);
   EXPECT_NEAR(smoothing.log_likelihood, belief.log_likelihood, 1e-10);
 }
@@ -102,13 +102,13 @@ TEST(HmmLearning, FindsTheModelThatTheRunsWereDrawnFromWithoutLabels) {
   truth.transition << 0.9, 0.08, 0.02, 0.05, 0.9, 0.05, 0.02, 0.08, 0.9;
   LearningParams options;
   options.restarts = 2;
-  const Learned learned =
+  const LearningResult learned =
       learn({without_labels(draw(truth, 4000, 1)), without_labels(draw(truth, 4000, 2))}, options);
   EXPECT_TRUE(learned.converged);
   EXPECT_LT((learned.parameters.transition - truth.transition).cwiseAbs().maxCoeff(), 0.03);
   for (std::size_t i = 0; i < kIntents; ++i) {
-    const double share = mean_square_speed(learned.parameters, i) / mean_square_speed(truth, i);
-    EXPECT_NEAR(share, 1, 0.1) << kIntentNames[i];
+    const double fraction = mean_square_speed(learned.parameters, i) / mean_square_speed(truth, i);
+    EXPECT_NEAR(fraction, 1, 0.1) << kIntentNames[i];
     EXPECT_TRUE(learned.parameters.mean[i].isZero(0)) << kIntentNames[i];
   }
 }
@@ -126,7 +126,7 @@ TEST(HmmLearning, OrdersTheStatesBySpeedWhereverItFoundThem) {
   LearningParams options;
   options.free_means = true;
   options.restarts = 8;
-  const Learned learned = learn({without_labels(draw(truth, 2000, 4))}, options);
+  const LearningResult learned = learn({without_labels(draw(truth, 2000, 4))}, options);
   for (const std::string& reason : learned.refused) {
     EXPECT_EQ(reason.find("rms speed"), std::string::npos) << reason;
   }
@@ -160,18 +160,18 @@ TEST(HmmLearning, CountsWhereEverythingIsLabelled) {
     const auto from = static_cast<Eigen::Index>(*run[k - 1].label);
     counts(from, static_cast<Eigen::Index>(*run[k].label)) += 1;
   }
-  const Learned learned = learn({run}, LearningParams());
+  const LearningResult learned = learn({run}, LearningParams());
   EXPECT_LE(learned.log_likelihood.size(), 3u);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const Eigen::RowVector3d share = counts.row(i) / counts.row(i).sum();
-    EXPECT_NEAR((learned.parameters.transition.row(i) - share).norm(), 0, 1e-12);
+    const Eigen::RowVector3d fraction = counts.row(i) / counts.row(i).sum();
+    EXPECT_NEAR((learned.parameters.transition.row(i) - fraction).norm(), 0, 1e-12);
   }
 }
 
-TEST(HmmLearning, GivesTheSameAnswerForTheSameSeed) {
+TEST(HmmLearning, GivesTheSameResultForTheSameSeed) {
   const Sequence run = without_labels(draw(usual_hmm(), 800, 7));
-  const Learned once = learn({run}, LearningParams());
-  const Learned again = learn({run}, LearningParams());
+  const LearningResult once = learn({run}, LearningParams());
+  const LearningResult again = learn({run}, LearningParams());
   EXPECT_EQ(once.log_likelihood, again.log_likelihood);
   EXPECT_EQ(once.parameters.transition, again.parameters.transition);
 }

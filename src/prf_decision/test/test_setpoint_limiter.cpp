@@ -33,7 +33,7 @@ TEST(SetpointLimiter, StaysWithASmoothReference) {
   }
 }
 
-TEST(SetpointLimiter, PassesAShareOfTheReferencesNoise) {
+TEST(SetpointLimiter, PassesAFractionOfTheReferencesNoise) {
   std::mt19937 random(2);
   std::normal_distribution<double> noise(0, 0.001);
   Pose setpoint;

@@ -19,16 +19,16 @@ const GateParams kGate{milliseconds(60), from_seconds(1 / 30.0), milliseconds(30
 
 ForecastArrival forecast(Stamp stamp) { return {stamp, std::make_shared<TargetForecast>()}; }
 
-PlanAnswer answer(Stamp stamp) { return {stamp, std::make_shared<Trajectory>(), ""}; }
+PlanResult plan_result(Stamp stamp) { return {stamp, std::make_shared<Trajectory>(), ""}; }
 
-// Line per tick: its stamp, the forecasts and the answer that come into force, what is stale.
+// Line per tick: its stamp, the forecasts and the plan result used from it on, what is silent.
 std::string describe(const Tick& tick) {
   std::ostringstream line;
   line << tick.stamp.count() << ":";
   for (const auto& arrival : tick.forecasts) line << " f" << arrival.stamp.count();
-  if (tick.answer) line << " a" << tick.answer->stamp.count();
-  if (tick.forecast_stale) line << " forecast_stale";
-  if (tick.plan_stale) line << " plan_stale";
+  if (tick.plan_result) line << " a" << tick.plan_result->stamp.count();
+  if (tick.forecast_silent) line << " forecast_silent";
+  if (tick.planner_silent) line << " planner_silent";
   return line.str() + "\n";
 }
 
@@ -62,8 +62,8 @@ Sequences random_sequences(std::mt19937& random) {
   return sequences;
 }
 
-// Delivers the streams in a random order that respects each stream's own; an answer can only come
-// after its progress. Ticks run ahead of what they wait for by less than max_wait.
+// Delivers the streams in a random order that respects each stream's own; a plan result can only
+// come after its progress. Ticks run ahead of what they wait for by less than max_wait.
 std::string deliver(const Sequences& sequences, std::mt19937& random) {
   TickGate gate(kGate);
   std::string processed;
@@ -88,7 +88,7 @@ std::string deliver(const Sequences& sequences, std::mt19937& random) {
         break;
       default:
         if (!requests.empty()) {
-          gate.push_answer(answer(requests.front()));
+          gate.push_plan_result(plan_result(requests.front()));
           requests.pop_front();
         }
     }
@@ -114,7 +114,7 @@ TEST(TickGate, ProcessesTheSameSequenceWhateverTheInterleaving) {
     const Sequences sequences = random_sequences(random);
     const std::string expected = deliver(sequences, random);
     EXPECT_EQ(std::count(expected.begin(), expected.end(), '\n'), 150);
-    EXPECT_EQ(expected.find("stale"), std::string::npos);
+    EXPECT_EQ(expected.find("silent"), std::string::npos);
     for (int order = 0; order < 60; ++order) {
       ASSERT_EQ(deliver(sequences, random), expected) << "world " << world << " order " << order;
     }
@@ -133,7 +133,7 @@ std::string tick_through(TickGate& gate, int from, int to) {
 
 std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
-TEST(TickGate, PutsAForecastIntoForceAtTheFirstTickAfterThePipelineDelay) {
+TEST(TickGate, UsesAForecastFromTheFirstTickAfterThePipelineDelay) {
   TickGate gate(kGate);
   EXPECT_EQ(lines(tick_through(gate, 0, 7)), 6);  // the tick at 60 ms could see an image of 0 ms
   gate.push_forecast(forecast(Stamp{0}));
@@ -141,77 +141,77 @@ TEST(TickGate, PutsAForecastIntoForceAtTheFirstTickAfterThePipelineDelay) {
   EXPECT_FALSE(gate.next());
 }
 
-TEST(TickGate, WaitsForTheAnswerToTheProgressThatNamedAForecast) {
+TEST(TickGate, WaitsForTheResultOfTheProgressThatNamedAForecast) {
   TickGate gate(kGate);
   gate.push_forecast(forecast(Stamp{0}));
   EXPECT_EQ(lines(tick_through(gate, 0, 8)), 7);
-  gate.push_answer(answer(milliseconds(60)));
+  gate.push_plan_result(plan_result(milliseconds(60)));
   EXPECT_EQ(describe(*gate.next()), "70000000: a60000000\n");
 }
 
-TEST(TickGate, DoesNotExpectAnAnswerToARefusedForecast) {
+TEST(TickGate, DoesNotExpectAResultForARefusedForecast) {
   TickGate gate(kGate);
   gate.push_forecast({Stamp{0}, nullptr});
   EXPECT_EQ(lines(tick_through(gate, 0, 9)), 9);
 }
 
-TEST(TickGate, GivesUpOnASilentForecastByDataTimeAndWaitsAgainOnceItSpeaks) {
+TEST(TickGate, GivesUpOnASilentForecastByDataTimeAndWaitsAgainOnceItIsHeard) {
   TickGate gate(kGate);
   EXPECT_EQ(lines(tick_through(gate, 0, 37)), 6);  // newest 360 ms, waiting 60 ms: not yet
   const std::string late = tick_through(gate, 37, 40);
-  EXPECT_EQ(late.rfind("60000000: forecast_stale\n", 0), 0u);
+  EXPECT_EQ(late.rfind("60000000: forecast_silent\n", 0), 0u);
   EXPECT_EQ(lines(late), 34);
   gate.push_forecast(forecast(milliseconds(330)));
   EXPECT_EQ(tick_through(gate, 40, 41), "400000000: f330000000\n");
 }
 
-TEST(TickGate, GivesUpOnASilentPlannerAndWaitsAgainOnceItSpeaks) {
+TEST(TickGate, GivesUpOnASilentPlannerAndWaitsAgainOnceItIsHeard) {
   TickGate gate(kGate);
   gate.push_forecast(forecast(Stamp{0}));
   EXPECT_EQ(lines(tick_through(gate, 0, 38)), 7);
   for (int i = 1; i < 12; ++i) gate.push_forecast(forecast(from_seconds(i / 30.0)));
   const std::string late = tick_through(gate, 38, 39);
-  EXPECT_EQ(late.rfind("70000000: plan_stale\n", 0), 0u);
+  EXPECT_EQ(late.rfind("70000000: planner_silent\n", 0), 0u);
   EXPECT_EQ(lines(late), 32);
-  gate.push_answer(answer(milliseconds(60)));
-  EXPECT_EQ(tick_through(gate, 39, 40), "");  // waits for the answers still owed
-  gate.push_answer(answer(milliseconds(370)));
+  gate.push_plan_result(plan_result(milliseconds(60)));
+  EXPECT_EQ(tick_through(gate, 39, 40), "");  // waits for the results still due
+  gate.push_plan_result(plan_result(milliseconds(370)));
   EXPECT_EQ(describe(*gate.next()), "390000000: a370000000\n");
 }
 
-TEST(TickGate, DropsDuplicatesAndStampsOfTheFuture) {
+TEST(TickGate, DropsDuplicatesAndStampsFarAhead) {
   TickGate gate(kGate);
-  EXPECT_EQ(gate.push_tick(Stamp{0}), Push::kTaken);
-  EXPECT_EQ(gate.push_tick(Stamp{0}), Push::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), Push::kTaken);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), Push::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(10))), Push::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(1001))), Push::kFuture);
-  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
-  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kOld);
-  EXPECT_EQ(gate.push_answer(answer(milliseconds(1001))), Push::kFuture);
+  EXPECT_EQ(gate.push_tick(Stamp{0}), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_tick(Stamp{0}), PushResult::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), PushResult::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(10))), PushResult::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(1001))), PushResult::kFarAhead);
+  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kOld);
+  EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(1001))), PushResult::kFarAhead);
 }
 
-TEST(TickGate, ForgetsEverythingWhenTheTicksGoBack) {
+TEST(TickGate, DropsEverythingWhenTheTicksGoBack) {
   TickGate gate(kGate);
   gate.push_forecast(forecast(Stamp{0}));
   tick_through(gate, 0, 8);
   TickGate fresh(kGate);
-  EXPECT_EQ(gate.push_tick(milliseconds(60)), Push::kNewRun);
+  EXPECT_EQ(gate.push_tick(milliseconds(60)), PushResult::kNewRun);
   fresh.push_tick(milliseconds(60));
   EXPECT_EQ(describe(*gate.next()), describe(*fresh.next()));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(60))), Push::kTaken);
-  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kOld);
-  EXPECT_EQ(gate.push_answer(answer(milliseconds(60))), Push::kTaken);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(60))), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kOld);
+  EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(60))), PushResult::kAccepted);
 }
 
-TEST(TickGate, ForgetsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
+TEST(TickGate, DropsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
   TickGate gate(kGate);
   gate.push_forecast(forecast(milliseconds(1500)));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(400))), Push::kNewRun);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(433))), Push::kTaken);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(400))), PushResult::kNewRun);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(433))), PushResult::kAccepted);
   gate.push_tick(std::chrono::seconds(5));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(466))), Push::kNewRun);
+  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(466))), PushResult::kNewRun);
 }
 
 TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
@@ -220,7 +220,7 @@ TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
     if (forecast_first) gate.push_forecast(forecast(milliseconds(70)));
     gate.push_tick(milliseconds(100));
     if (!forecast_first) {
-      EXPECT_EQ(gate.push_forecast(forecast(milliseconds(70))), Push::kOld);
+      EXPECT_EQ(gate.push_forecast(forecast(milliseconds(70))), PushResult::kOld);
     }
     gate.push_forecast(forecast(milliseconds(100)));
     std::string processed;
@@ -237,11 +237,11 @@ TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
 
 TEST(TickGate, IgnoresWhatIsLeftOfAnotherRunBeforeItsFirstTick) {
   TickGate gate(kGate);
-  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(90))), Push::kTaken);
-  EXPECT_EQ(gate.push_answer(answer(std::chrono::seconds(90))), Push::kOld);
+  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(90))), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_plan_result(plan_result(std::chrono::seconds(90))), PushResult::kOld);
   gate.push_tick(Stamp{0});
-  EXPECT_EQ(gate.push_forecast(forecast(Stamp{0})), Push::kTaken);
-  EXPECT_EQ(gate.push_answer(answer(Stamp{0})), Push::kTaken);
+  EXPECT_EQ(gate.push_forecast(forecast(Stamp{0})), PushResult::kAccepted);
+  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kAccepted);
   EXPECT_EQ(describe(*gate.next()), "0:\n");
 }
 

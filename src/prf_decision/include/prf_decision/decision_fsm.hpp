@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state machine of the skill's execution, as one table.
+// The state machine of the skill's execution, as one table of rows
 //
 //   state + event [dwelled] = next
 //
-// A pair that is not listed stays. Rows marked kDwelled act only when the state has lasted the
-// dwell time: they follow the HMM, which may chatter. The others are guards and milestones, which
-// act at once and whatever the HMM says.
+// A pair that is not listed stays. A row marked kDwelled acts only when the published state has
+// lasted the dwell time: it follows the HMM, whose belief may chatter. The other rows are guards,
+// milestones and goals, which act at once and whatever the HMM believes.
 #pragma once
 
 #include <array>
@@ -14,94 +14,169 @@
 
 namespace prf_decision {
 
-enum class State { kWaiting, kForward, kPause, kReverse, kTracking, kRetract, kDone, kStopped };
-inline constexpr std::size_t kStates = 8;
+// As in prf_msgs/ExecutionProgress.
+enum class ExecutionState {
+  kWaiting,
+  kForward,
+  kPause,
+  kReverse,
+  kTracking,
+  kRetract,
+  kDone,
+  kStopped
+};
+inline constexpr std::size_t kExecutionStates = 8;
+
+enum class State {
+  kIdle,           // no goal yet
+  kWaiting,        // for the guards, to begin
+  kRewindWaiting,  // the same, then back to the start of the skill
+  kForward,
+  kPause,
+  kRewindPaused,
+  kReverse,
+  kRewinding,  // back to the start of the skill, before the execution begins
+  kTracking,   // of the target, at the end of the skill
+  kRetract,    // back from the target
+  kDone,
+  kStopped
+};
+inline constexpr std::size_t kStates = 12;
 
 enum class Event {
-  kCalm,      // no guard objects, the HMM says Forward
-  kUnsteady,  // no guard objects, the HMM says Pause
-  kUnstable,  // no guard objects, the HMM says Reverse
-  kHazard,    // a guard objects: input stale or refused, target coasting, goal out of reach
-  kOverdue,   // target unseen for so long that the arm should go back
-  kLost,      // target unseen for so long that the skill is given up
-  kTimeUp,    // time limit passed
-  kComplete,  // the cursor stands on the last node
-  kHeld,      // the target was tracked for the hold time
-  kRewind,    // no guard objects, the skill is to begin but the cursor is not at its start
-  kPreempted  // asked to stop
+  kCalm,       // no violation, the HMM believes in Forward
+  kUnsteady,   // no violation, the HMM believes in Pause
+  kUnstable,   // no violation, the HMM believes in Reverse
+  kClear,      // no violation, whatever the HMM believes; instead of these three while rewinding
+  kHazard,     // a guard reports a violation
+  kOverdue,    // the last measurement is so old that the arm shall go back
+  kLost,       // the last measurement is so old that the skill is given up
+  kTimeUp,     // time limit passed
+  kComplete,   // the cursor stands on the last node
+  kHeld,       // the target was tracked for the hold time
+  kAtStart,    // cursor and hand are at the start of the skill to execute
+  kPreempted,  // the goal was cancelled
+  kBegin,      // a goal begins where the cursor is
+  kBeginAway   // a goal begins, the cursor or the demonstration is not where it shall begin
 };
-inline constexpr std::size_t kEvents = 11;
+inline constexpr std::size_t kEvents = 14;
 
-enum class Guard { kNone, kDwelled };
+enum class Condition { kNone, kDwelled };
 
 struct Row {
   State from;
   Event event;
-  Guard guard;
+  Condition condition;
   State to;
 };
 
 // clang-format off
 inline constexpr std::array kTable{
-    //  state              event              guard            next
-    Row{State::kWaiting,   Event::kCalm,      Guard::kNone,    State::kForward},
-    Row{State::kWaiting,   Event::kRewind,    Guard::kNone,    State::kReverse},
-    Row{State::kWaiting,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kWaiting,   Event::kPreempted, Guard::kNone,    State::kStopped},
+    //  state                  event              condition            next
+    Row{State::kIdle,          Event::kBegin,     Condition::kNone,    State::kWaiting},
+    Row{State::kIdle,          Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
 
-    Row{State::kForward,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
-    Row{State::kForward,   Event::kUnstable,  Guard::kDwelled, State::kReverse},
-    Row{State::kForward,   Event::kHazard,    Guard::kNone,    State::kPause},
-    Row{State::kForward,   Event::kOverdue,   Guard::kNone,    State::kReverse},
-    Row{State::kForward,   Event::kComplete,  Guard::kNone,    State::kTracking},
-    Row{State::kForward,   Event::kLost,      Guard::kNone,    State::kStopped},
-    Row{State::kForward,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kForward,   Event::kPreempted, Guard::kNone,    State::kStopped},
+    Row{State::kWaiting,       Event::kCalm,      Condition::kNone,    State::kForward},
+    Row{State::kWaiting,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kWaiting,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kPause,     Event::kCalm,      Guard::kDwelled, State::kForward},
-    Row{State::kPause,     Event::kRewind,    Guard::kNone,    State::kReverse},
-    Row{State::kPause,     Event::kUnstable,  Guard::kDwelled, State::kReverse},
-    Row{State::kPause,     Event::kOverdue,   Guard::kNone,    State::kReverse},
-    Row{State::kPause,     Event::kLost,      Guard::kNone,    State::kStopped},
-    Row{State::kPause,     Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kPause,     Event::kPreempted, Guard::kNone,    State::kStopped},
+    Row{State::kRewindWaiting, Event::kClear,     Condition::kNone,    State::kRewinding},
+    Row{State::kRewindWaiting, Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kRewindWaiting, Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kReverse,   Event::kCalm,      Guard::kDwelled, State::kForward},
-    Row{State::kReverse,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
-    Row{State::kReverse,   Event::kHazard,    Guard::kNone,    State::kPause},
-    Row{State::kReverse,   Event::kLost,      Guard::kNone,    State::kStopped},
-    Row{State::kReverse,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kReverse,   Event::kPreempted, Guard::kNone,    State::kStopped},
+    Row{State::kForward,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
+    Row{State::kForward,       Event::kUnstable,  Condition::kDwelled, State::kReverse},
+    Row{State::kForward,       Event::kHazard,    Condition::kNone,    State::kPause},
+    Row{State::kForward,       Event::kOverdue,   Condition::kNone,    State::kReverse},
+    Row{State::kForward,       Event::kComplete,  Condition::kNone,    State::kTracking},
+    Row{State::kForward,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kForward,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kForward,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kTracking,  Event::kUnstable,  Guard::kDwelled, State::kRetract},
-    Row{State::kTracking,  Event::kHazard,    Guard::kNone,    State::kPause},
-    Row{State::kTracking,  Event::kOverdue,   Guard::kNone,    State::kRetract},
-    Row{State::kTracking,  Event::kHeld,      Guard::kNone,    State::kDone},
-    Row{State::kTracking,  Event::kLost,      Guard::kNone,    State::kStopped},
-    Row{State::kTracking,  Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kTracking,  Event::kPreempted, Guard::kNone,    State::kStopped},
+    Row{State::kPause,         Event::kCalm,      Condition::kDwelled, State::kForward},
+    Row{State::kPause,         Event::kUnstable,  Condition::kDwelled, State::kReverse},
+    Row{State::kPause,         Event::kOverdue,   Condition::kNone,    State::kReverse},
+    Row{State::kPause,         Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kPause,         Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kPause,         Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kRetract,   Event::kCalm,      Guard::kDwelled, State::kForward},
-    Row{State::kRetract,   Event::kUnsteady,  Guard::kDwelled, State::kPause},
-    Row{State::kRetract,   Event::kHazard,    Guard::kNone,    State::kPause},
-    Row{State::kRetract,   Event::kLost,      Guard::kNone,    State::kStopped},
-    Row{State::kRetract,   Event::kTimeUp,    Guard::kNone,    State::kStopped},
-    Row{State::kRetract,   Event::kPreempted, Guard::kNone,    State::kStopped},
+    Row{State::kRewindPaused,  Event::kClear,     Condition::kNone,    State::kRewinding},
+    Row{State::kRewindPaused,  Event::kOverdue,   Condition::kNone,    State::kRewinding},
+    Row{State::kRewindPaused,  Event::kAtStart,   Condition::kNone,    State::kPause},
+    Row{State::kRewindPaused,  Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kRewindPaused,  Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kRewindPaused,  Event::kPreempted, Condition::kNone,    State::kStopped},
+
+    Row{State::kReverse,       Event::kCalm,      Condition::kDwelled, State::kForward},
+    Row{State::kReverse,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
+    Row{State::kReverse,       Event::kHazard,    Condition::kNone,    State::kPause},
+    Row{State::kReverse,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kReverse,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kReverse,       Event::kPreempted, Condition::kNone,    State::kStopped},
+
+    Row{State::kRewinding,     Event::kHazard,    Condition::kNone,    State::kRewindPaused},
+    Row{State::kRewinding,     Event::kAtStart,   Condition::kNone,    State::kReverse},
+    Row{State::kRewinding,     Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kRewinding,     Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kRewinding,     Event::kPreempted, Condition::kNone,    State::kStopped},
+
+    Row{State::kTracking,      Event::kUnstable,  Condition::kDwelled, State::kRetract},
+    Row{State::kTracking,      Event::kHazard,    Condition::kNone,    State::kPause},
+    Row{State::kTracking,      Event::kOverdue,   Condition::kNone,    State::kRetract},
+    Row{State::kTracking,      Event::kHeld,      Condition::kNone,    State::kDone},
+    Row{State::kTracking,      Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kTracking,      Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kTracking,      Event::kPreempted, Condition::kNone,    State::kStopped},
+
+    Row{State::kRetract,       Event::kCalm,      Condition::kDwelled, State::kForward},
+    Row{State::kRetract,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
+    Row{State::kRetract,       Event::kHazard,    Condition::kNone,    State::kPause},
+    Row{State::kRetract,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kRetract,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kRetract,       Event::kPreempted, Condition::kNone,    State::kStopped},
+
+    Row{State::kDone,          Event::kBegin,     Condition::kNone,    State::kWaiting},
+    Row{State::kDone,          Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
+
+    Row{State::kStopped,       Event::kBegin,     Condition::kNone,    State::kWaiting},
+    Row{State::kStopped,       Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
 };
+
+// Every state with the one that is published for it.
+inline constexpr std::array<ExecutionState, kStates> kPublished{
+    ExecutionState::kWaiting,  // idle
+    ExecutionState::kWaiting,  // waiting
+    ExecutionState::kWaiting,  // rewind waiting
+    ExecutionState::kForward,  ExecutionState::kPause,
+    ExecutionState::kPause,    // rewind paused
+    ExecutionState::kReverse,
+    ExecutionState::kReverse,  // rewinding
+    ExecutionState::kTracking, ExecutionState::kRetract,
+    ExecutionState::kDone,     ExecutionState::kStopped};
 // clang-format on
+
+[[nodiscard]] constexpr ExecutionState published(State state) {
+  return kPublished[static_cast<std::size_t>(state)];
+}
 
 [[nodiscard]] constexpr State step(State state, Event event, bool dwelled) {
   for (const Row& row : kTable) {
     if (row.from != state || row.event != event) continue;
-    return row.guard == Guard::kNone || dwelled ? row.to : state;
+    return row.condition == Condition::kNone || dwelled ? row.to : state;
   }
   return state;
 }
 
+[[nodiscard]] constexpr bool is_rewinding(State state) {
+  return state == State::kRewindWaiting || state == State::kRewindPaused ||
+         state == State::kRewinding;
+}
+
+[[nodiscard]] const char* name(ExecutionState state);
 [[nodiscard]] const char* name(State state);
 [[nodiscard]] const char* name(Event event);
 
-// The table for people: a Markdown table, and a Graphviz graph.
+// The table for people: Markdown with a line for each state, and a Graphviz graph.
 [[nodiscard]] std::string fsm_markdown();
 [[nodiscard]] std::string fsm_dot();
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which demonstration the planner is asked to follow, and which one is executed.
+// The switch to another demonstration, a state machine beside that of the execution:
 //
-//   asked        named by an order; the planner has not answered yet
-//   taken up     the planner has it, and plans it
-//   in force     executed: the cursor runs along its plan
+//   requested    a goal names the demonstration; every progress names it until the planner answers
+//   returning    the planner has accepted it; the hand goes back along the skill before
+//   settled      the accepted demonstration is executed
 //
-// One after the other. What is asked for but refused, withdrawn or not answered in time leaves the
-// one taken up before. Answers are told apart by the number under which a demonstration was asked
-// for, which comes back with them.
+// A request that the planner refuses, does not answer within kPatience, or that is preempted leaves
+// the demonstration accepted before. Every request has a number that comes back with the planner's
+// results, so that these are told apart.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,37 +19,94 @@
 
 namespace prf_decision {
 
+enum class SwitchState {
+  kSettled,            // the accepted demonstration is executed
+  kRequested,          // a goal names another one, the planner has not answered yet
+  kReturning,          // accepted; the hand goes back along the skill before
+  kReturningRequested  // the same, and a further goal names yet another one
+};
+inline constexpr std::size_t kSwitchStates = 4;
+
+enum class SwitchEvent {
+  kRequest,
+  kAccepted,  // by the planner
+  kEnded,     // refused by the planner, not answered in time, or preempted
+  kArrived    // at the start, with a plan of the accepted demonstration
+};
+inline constexpr std::size_t kSwitchEvents = 4;
+
+struct SwitchRow {
+  SwitchState from;
+  SwitchEvent event;
+  SwitchState to;
+};
+
+// clang-format off
+inline constexpr std::array kSwitchTable{
+    SwitchRow{SwitchState::kSettled,            SwitchEvent::kRequest,  SwitchState::kRequested},
+    SwitchRow{SwitchState::kRequested,          SwitchEvent::kAccepted, SwitchState::kReturning},
+    SwitchRow{SwitchState::kRequested,          SwitchEvent::kEnded,    SwitchState::kSettled},
+    SwitchRow{SwitchState::kReturning,          SwitchEvent::kRequest,  SwitchState::kReturningRequested},
+    SwitchRow{SwitchState::kReturning,          SwitchEvent::kArrived,  SwitchState::kSettled},
+    SwitchRow{SwitchState::kReturningRequested, SwitchEvent::kAccepted, SwitchState::kReturning},
+    SwitchRow{SwitchState::kReturningRequested, SwitchEvent::kEnded,    SwitchState::kReturning},
+    SwitchRow{SwitchState::kReturningRequested, SwitchEvent::kArrived,  SwitchState::kRequested},
+};
+// clang-format on
+
+[[nodiscard]] constexpr SwitchState step(SwitchState state, SwitchEvent event) {
+  for (const SwitchRow& row : kSwitchTable) {
+    if (row.from == state && row.event == event) return row.to;
+  }
+  return state;
+}
+
+[[nodiscard]] const char* name(SwitchState state);
+[[nodiscard]] const char* name(SwitchEvent event);
+
+// The table for people, as Markdown.
+[[nodiscard]] std::string switch_markdown();
+
 struct NamedDemonstration {
   std::string name;  // empty: the one that the planner started with
   std::uint32_t number = 0;
 };
 
-enum class Reply { kOfAnother, kRefused, kTakenUp, kPlan };
+// What a planner's result is for.
+enum class PlanFor { kAnotherRequest, kRefused, kAccepted, kCurrent };
 
 class DemonstrationSwitch {
  public:
-  static constexpr Duration kPatience = std::chrono::seconds(5);  // data time, for the answer
+  // Data time for the planner to answer, which it does at its next forecast: 150 of them at 30 Hz.
+  static constexpr Duration kPatience = std::chrono::seconds(5);
 
-  void ask(const std::string& name);  // from the next tick on
-  void withdraw() { asked_.reset(); }
-  void come_into_force() { in_force_ = taken_up_.number; }
+  void request(const std::string& name);
+  void end_request() { state_ = step(state_, SwitchEvent::kEnded); }
+  void arrive() { state_ = step(state_, SwitchEvent::kArrived); }
 
-  // What an answer of the planner is, to which demonstration's number and whether refused.
-  [[nodiscard]] Reply take(std::uint32_t number, bool refused);
+  // Takes the number and the refusal of a planner's result.
+  [[nodiscard]] PlanFor receive(std::uint32_t number, bool refused);
 
-  // Whether the answer is overdue at this tick; counts from the first one.
+  // Whether the planner's answer is overdue at this tick; counts from the first call.
   [[nodiscard]] bool is_overdue(Stamp tick);
 
-  bool is_asking() const { return asked_.has_value(); }
-  bool is_taking_over() const { return taken_up_.number != in_force_; }
-  const NamedDemonstration& wanted() const { return asked_ ? *asked_ : taken_up_; }
+  [[nodiscard]] SwitchState state() const { return state_; }
+  [[nodiscard]] bool is_requested() const {
+    return state_ == SwitchState::kRequested || state_ == SwitchState::kReturningRequested;
+  }
+  [[nodiscard]] bool is_returning() const {
+    return state_ == SwitchState::kReturning || state_ == SwitchState::kReturningRequested;
+  }
+  // The demonstration that the planner shall follow.
+  [[nodiscard]] const NamedDemonstration& wanted() const {
+    return is_requested() ? requested_ : accepted_;
+  }
 
  private:
-  std::optional<NamedDemonstration> asked_;
-  std::optional<Stamp> asked_at_;
-  NamedDemonstration taken_up_;
-  std::uint32_t in_force_ = 0;
-  std::uint32_t count_ = 0;
+  SwitchState state_ = SwitchState::kSettled;
+  NamedDemonstration requested_;
+  NamedDemonstration accepted_;
+  std::optional<Stamp> requested_at_;
 };
 
 }  // namespace prf_decision

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the HMM cannot see: whether target, forecast and goal can be acted on at all.
+// The guards: checks of what the HMM cannot see, whether target, forecast, plan and goal can be
+// acted on at all. They are the rows of one table, tried in its order; the first violation counts.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -11,31 +13,77 @@
 namespace prf_decision {
 
 struct GuardParams {
-  Duration pause_after{0};                             // target unseen, T1
+  Duration max_gap{0};                                 // between ticks
+  Duration pause_after{0};                             // since the last measurement, T1
   Duration reverse_after{0};                           // T2 > T1
   Duration stop_after{0};                              // T3 > T2
   Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  // its centre in the planning frame, m
-  double max_reach = 0;                                // hand from the shoulder's centre, m
-  double workspace_radius = 0;                         // target from the shoulder's centre, m
+  double max_reach = 0;                                // hand from the shoulder, m
+  double workspace_radius = 0;                         // target from the shoulder, m
   double max_target_speed = 0;                         // m/s
 
+  // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
 };
 
-struct Objection {
+struct GuardInput {
+  Stamp tick{0};
+  Stamp goal_time{0};                  // at which the hand shall be at the goal
+  Duration since_last_tick{0};         // 0 at the first one
+  bool has_goal = false;               // of the action, or the one that starts by itself
+  std::optional<Stamp> measured;       // last measurement of the target
+  const TargetForecast* forecast{};    // the newest one, present once the target was measured
+  bool forecast_silent = false;        // no forecast for longer than max_wait
+  const Trajectory* plan{};            // of the demonstration to execute
+  std::optional<std::string> no_plan;  // reason, when the planner's last result has no plan
+  bool planner_silent = false;
+};
+
+struct Violation {
   Event event = Event::kHazard;
   std::string reason;
 };
 
-// The target was last seen `age` ago.
-[[nodiscard]] std::optional<Objection> object_to_age(const GuardParams& guards, Duration age);
+using Check = std::optional<Violation>(const GuardParams& params, const GuardInput& input);
 
-// A prediction is outside the workspace or too fast.
-[[nodiscard]] std::optional<Objection> object_to_forecast(const GuardParams& guards,
-                                                          const TargetForecast& forecast);
+// Each check may rely on the ones before it in the table.
+Check check_has_goal, check_ticks, check_measured, check_age, check_forecast_heard, check_status,
+    check_forecast, check_has_plan, check_planner_heard, check_plan_result, check_goal;
 
-// The hand's goal is farther than the arm reaches, or no joint position within limits gives it.
-[[nodiscard]] std::optional<Objection> object_to_goal(const GuardParams& guards,
-                                                      const Pose& hand_goal);
+struct Guard {
+  const char* name;
+  bool adapted_once;      // also where the skill is adapted once and executed blindly
+  const char* violation;  // what it reports
+  const char* events;
+  Check* check;
+};
+
+// clang-format off
+inline constexpr std::array kGuards{
+    //    name             once   violation                                                                events
+    Guard{"goal given",    true,  "no goal of `execute_skill` yet",                                        "hazard", check_has_goal},
+    Guard{"ticks",         true,  "`joint_states` silent for longer than `max_wait`",                      "hazard", check_ticks},
+    Guard{"measured",      false, "the target was never measured",                                         "hazard", check_measured},
+    Guard{"age",           false, "last measurement older than `coast_limits` [0], [1], [2]",              "hazard, overdue, lost", check_age},
+    Guard{"forecast heard", false, "`target/forecast` silent for longer than `max_wait`",                  "hazard", check_forecast_heard},
+    Guard{"status",        false, "the predictor has no target, or lost it",                               "hazard", check_status},
+    Guard{"forecast",      false, "a prediction outside `workspace_radius` or above `max_target_speed`",   "hazard", check_forecast},
+    Guard{"plan",          true,  "no plan yet",                                                           "hazard", check_has_plan},
+    Guard{"planner heard", false, "`skill/trajectory` silent for longer than `max_wait`",                  "hazard", check_planner_heard},
+    Guard{"plan result",   false, "the planner's last result has no plan",                                 "hazard", check_plan_result},
+    Guard{"reach",         false, "goal beyond `max_reach`, or no joint position within limits gives it",  "hazard", check_goal},
+};
+// clang-format on
+
+// The first violation, of all guards or of those that hold where the skill is adapted once.
+[[nodiscard]] std::optional<Violation> check_guards(const GuardParams& params,
+                                                    const GuardInput& input, bool adapted_once);
+
+// Where the hand shall be at `time`, moving with the target.
+[[nodiscard]] MovingPose goal_at(const TargetForecast& forecast, const Trajectory& plan,
+                                 Stamp time);
+
+// The table for people, as Markdown.
+[[nodiscard]] std::string guards_markdown();
 
 }  // namespace prf_decision

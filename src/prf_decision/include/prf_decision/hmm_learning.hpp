@@ -32,18 +32,18 @@ struct LearningParams {
   void validate() const;
 };
 
-struct EmStep {
+struct EmStepResult {
   HmmParams parameters;       // states in the order of those it was given
   double log_likelihood = 0;  // of the parameters that it was given
 };
 
-// One iteration. std::runtime_error names a state that has died out (fewer than kLeastShare
-// observations, or a singular covariance).
-inline constexpr double kLeastShare = 4;
-[[nodiscard]] EmStep em_step(const HmmParams& parameters, const std::vector<Sequence>& runs,
-                             bool free_means);
+// One iteration. std::runtime_error names a state with too little data (fewer than
+// kLeastObservations observations, or a singular covariance).
+inline constexpr double kLeastObservations = 4;
+[[nodiscard]] EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& runs,
+                                   bool free_means);
 
-struct Learned {
+struct LearningResult {
   HmmParams parameters;
   std::vector<double> log_likelihood;  // one per iteration
   bool converged = false;
@@ -54,7 +54,7 @@ struct Learned {
 using OnIteration = std::function<void(int restart, int iteration, double log_likelihood)>;
 
 // std::invalid_argument when no restart leads to a valid model; the message says why.
-[[nodiscard]] Learned learn(const std::vector<Sequence>& runs, const LearningParams& options,
-                            const OnIteration& on_iteration = {});
+[[nodiscard]] LearningResult learn(const std::vector<Sequence>& runs, const LearningParams& options,
+                                   const OnIteration& on_iteration = {});
 
 }  // namespace prf_decision

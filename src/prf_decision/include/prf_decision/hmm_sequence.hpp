@@ -4,7 +4,7 @@
 // Forward-backward, scaled at every step (Rabiner 1989, section V.A), with s_k the scale:
 //   alpha_k = (A^T alpha_{k-1}) b(o_k) / s_k,     beta_k = A b(o_{k+1}) beta_{k+1} / s_{k+1},
 //   P(state k | all) = alpha_k beta_k,            ln P(all) = sum ln s_k.
-// An observation without a velocity says nothing (b = 1); one with a label excludes the others.
+// An observation without a velocity has b = 1 in every state; one with a label excludes the others.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,12 @@
 namespace prf_decision {
 
 struct Observation {
-  std::optional<Eigen::Vector3d> velocity;  // m/s; none: the target was not seen
+  std::optional<Eigen::Vector3d> velocity;  // m/s; none: the target was not measured
   std::optional<Intent> label;              // none: not known
 };
 using Sequence = std::vector<Observation>;
 
-struct Smoothing {
+struct SmoothingResult {
   Eigen::Matrix3Xd posterior;                             // one column per observation, sums to 1
   Eigen::Matrix3d transitions = Eigen::Matrix3d::Zero();  // expected number from row to column
   double log_likelihood = 0;
@@ -29,15 +29,16 @@ struct Smoothing {
 
 // The parameters' probabilities are taken as they are, in any order of the states.
 // std::invalid_argument for an empty sequence, or one that the model makes impossible.
-[[nodiscard]] Smoothing smooth(const HmmParams& parameters, const Sequence& sequence);
+[[nodiscard]] SmoothingResult smooth(const HmmParams& parameters, const Sequence& sequence);
 
-struct StatePath {
+struct ViterbiResult {
   std::vector<Intent> states;
   double log_probability = 0;  // of states and observations together
 };
 
 // The single most probable sequence of states (Viterbi). Refuses as smooth() does.
-[[nodiscard]] StatePath most_probable_path(const HmmParams& parameters, const Sequence& sequence);
+[[nodiscard]] ViterbiResult most_probable_path(const HmmParams& parameters,
+                                               const Sequence& sequence);
 
 // A run drawn from the model, every observation labelled. The same seed gives the same run.
 [[nodiscard]] Sequence draw(const HmmParams& parameters, std::size_t observations,

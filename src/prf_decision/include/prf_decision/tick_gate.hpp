@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins ticks, forecasts and plans by their stamps, so that what is decided at a tick does not
-// depend on the order in which the three streams arrive (each keeps its own order).
+// Joins control ticks, forecasts and the planner's results by their stamps, so that what is decided
+// at a tick does not depend on the order in which the three streams arrive (each keeps its own
+// order). On top of prf_core/stream.hpp, the rules of the decision:
 //
-//   forecast stamped c      is in force from the first tick t with t - D >= c
+//   forecast stamped c      is used from the first tick t with t - D >= c
 //   tick t waits for it     while t - D >= newest forecast + P - margin: one more could be due
-//   answer to progress a    is in force from the next tick, which waits for it
-//   give-up                 when the newest tick is more than max_wait ahead of the first one
-//                           waiting, the silent stream is stale: not waited for until it speaks
+//   result for progress a   is used from the next tick, which waits for it
+//   silence                 when the newest tick is more than max_wait ahead of the first one
+//                           waiting, the stream is silent and not waited for until it is heard
 // with D pipeline_delay and P camera_period. Before any forecast, "newest" is the first tick - P;
 // a forecast of an image taken before the first tick is not of this run and is dropped.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
+#include <prf_core/stream.hpp>
+#include <string>
 #include <vector>
 
 #include "prf_decision/types.hpp"
@@ -25,14 +26,15 @@ namespace prf_decision {
 struct GateParams {
   Duration pipeline_delay{0};  // D, exposure of an image to its forecast, at most
   Duration camera_period{0};   // P
-  Duration max_wait{0};        // data time after which a silent stream is stale
+  Duration max_wait{0};        // data time after which a stream is silent
 
+  // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
 };
 
-// A planner's answer: null plan with the reason when there is none.
-struct PlanAnswer {
-  Stamp stamp{0};  // of the progress answered
+// The planner's result for a progress: null plan with the reason when there is none.
+struct PlanResult {
+  Stamp stamp{0};  // of the progress
   std::shared_ptr<const Trajectory> plan;
   std::string message;
   std::uint32_t demonstration_switch = 0;  // number of the demonstration that was wanted
@@ -48,54 +50,48 @@ struct ForecastArrival {
 struct Tick {
   Stamp stamp{0};
   std::optional<Pose> hand;                // as measured; none: not known
-  std::vector<ForecastArrival> forecasts;  // that come into force at this tick, in order
-  std::optional<PlanAnswer> answer;        // that comes into force at this tick, the newest one
-  bool forecast_stale = false;
-  bool plan_stale = false;
+  std::vector<ForecastArrival> forecasts;  // used from this tick on, in order
+  std::optional<PlanResult> plan_result;   // used from this tick on, the newest one
+  bool forecast_silent = false;
+  bool planner_silent = false;
 };
 
-enum class Push {
-  kTaken,
-  kOld,     // not newer than the one before, or older than the run: dropped
-  kFuture,  // more than a second ahead of the ticks: dropped
-  kNewRun   // the data's clock went back: everything before it is forgotten
+enum class PushResult {
+  kAccepted,
+  kOld,       // not newer than the one before, or older than the run: dropped
+  kFarAhead,  // more than a second ahead of the ticks: dropped
+  kNewRun     // the data's clock went back: everything before it is dropped
 };
 
 class TickGate {
  public:
-  explicit TickGate(const GateParams& parameters);
+  explicit TickGate(const GateParams& params);
 
-  Push push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt);
-  Push push_forecast(ForecastArrival arrival);
-  Push push_answer(PlanAnswer answer);
+  PushResult push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt);
+  PushResult push_forecast(ForecastArrival arrival);
+  PushResult push_plan_result(PlanResult result);
 
-  // The next tick that may be processed. When it brings a forecast into force, the tick after it
-  // waits for the answer with its stamp.
+  // The next tick that may be processed. When a forecast is used from it on, the tick after it
+  // waits for the planner's result with its stamp.
   [[nodiscard]] std::optional<Tick> next();
 
  private:
   void begin_new_run();
   void begin_at(Stamp first_tick);
+  [[nodiscard]] bool is_far_ahead(Stamp stamp) const;
   [[nodiscard]] bool precedes_run(Stamp forecast) const;
   [[nodiscard]] bool forecast_may_be_due(Stamp tick) const;
-  [[nodiscard]] bool answer_is_due() const;
+  [[nodiscard]] bool plan_result_is_due() const;
 
-  GateParams parameters_;
-  struct JointTick {
-    Stamp stamp;
-    std::optional<Pose> hand;
-  };
-
-  std::deque<JointTick> ticks_;
-  std::deque<ForecastArrival> forecasts_;
-  std::deque<PlanAnswer> answers_;
-  std::optional<Stamp> newest_tick_;
+  GateParams params_;
+  // Every step back of the ticks begins a new run; the planner's results follow the ticks.
+  prf_core::StampedQueue<std::optional<Pose>> ticks_{{Duration{0}}};
+  prf_core::StampedQueue<ForecastArrival> forecasts_;
+  prf_core::StampedQueue<PlanResult> plan_results_{{Duration::max()}};
+  prf_core::SilenceMonitor forecast_silence_;
+  prf_core::SilenceMonitor plan_silence_;
   std::optional<Stamp> first_tick_;
-  std::optional<Stamp> newest_forecast_;
-  std::optional<Stamp> newest_answer_;
-  std::optional<Stamp> awaited_answer_;
-  bool forecast_stale_ = false;
-  bool plan_stale_ = false;
+  std::optional<Stamp> awaited_plan_result_;
 };
 
 }  // namespace prf_decision

@@ -16,7 +16,7 @@ from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from prf_msgs.msg import ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress
 
-sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
+sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
 from scripted_world import MISSING, PATIENCE, GoalTest, World  # noqa: E402
 
 
@@ -27,7 +27,7 @@ class SkillActionNode(GoalTest):
         cls.connect()
 
     def begin(self, **goal):
-        """A goal that the server has seen, with what it says about it."""
+        """A goal that the server has accepted or rejected, with its feedback."""
         changed = threading.Event()
         handle = self.client.send_goal(ExecuteSkillGoal(**goal), lambda _: changed.set(),
                                        lambda _, feedback: self.feedback.append(feedback))
@@ -45,9 +45,9 @@ class SkillActionNode(GoalTest):
         state, result = self.result(handle)
         self.assertEqual((state, result.code), (GoalStatus.SUCCEEDED, ExecuteSkillResult.DONE))
         self.assertEqual(result.text, "tracked for 0.50 s")
-        shares = [each.cursor for each in self.feedback]
-        self.assertEqual(shares, sorted(shares))
-        self.assertAlmostEqual(shares[-1], 1)
+        fractions = [each.cursor for each in self.feedback]
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertAlmostEqual(fractions[-1], 1)
         self.assertLess(self.feedback[-1].goal_distance, 1e-6)
         self.assertLess(self.feedback[-1].axis_distance, 1e-6)
         # Three states, the first two for about 1.0 and 0.5 s: at once, then every 0.1 s.
@@ -96,7 +96,7 @@ class SkillActionNode(GoalTest):
                 self.world.joint_speeds = {joint: speed}
                 self.play(0.9)
                 if waits:
-                    rospy.rostime.wallsleep(0.3)  # an answer too early would be here by now
+                    rospy.rostime.wallsleep(0.3)  # a result too early would be here by now
                     self.assertEqual(handle.get_goal_status(), GoalStatus.PREEMPTING)
                     self.play(0.2)
                 self.assertEqual(self.result(handle)[1].code, ExecuteSkillResult.PREEMPTED)
@@ -109,7 +109,7 @@ class SkillActionNode(GoalTest):
         state, result = self.result(handle)
         self.assertEqual((state, result.code),
                          (GoalStatus.ABORTED, ExecuteSkillResult.TARGET_LOST))
-        self.assertIn("unseen", result.text)
+        self.assertIn("no measurement of the target", result.text)
 
     def test_takes_changed_parameters_whole_or_refuses_them_with_the_reason(self):
         change = rospy.ServiceProxy("decision/set_parameters", Reconfigure)
@@ -120,7 +120,7 @@ class SkillActionNode(GoalTest):
 
         before = ask()
         for numbers, reason in ((dict(dwell_time=0.5, lead=-1.0), "lead = -1, must be"),
-                                (dict(dwell_time=0.5, lead=float("nan")), "lead is nan"),
+                                (dict(dwell_time=0.5, lead=float("nan")), "lead = nan"),
                                 (dict(dwell_time=0.5, max_wait=1.0), "max_wait cannot be changed")):
             with self.assertRaises(rospy.ServiceException) as refusal:
                 ask(**numbers)

@@ -13,7 +13,7 @@ import rospy
 import rostest
 from prf_msgs.msg import ExecutionProgress
 
-sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
+sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
 from scripted_world import (FRAME, NODES, PIPELINE_DELAY, World, forecast,  # noqa: E402
                             joint_state, milliseconds)
 
@@ -47,6 +47,8 @@ class DecisionNode(unittest.TestCase):
         changes = [s for i, s in enumerate(states) if i == 0 or s != states[i - 1]]
         self.assertEqual(changes, [ExecutionProgress.WAITING, ExecutionProgress.FORWARD,
                                    ExecutionProgress.TRACKING, ExecutionProgress.DONE])
+        named = [p for p in world.progress if p.forecast_stamp.to_nsec()]
+        self.assertEqual(len(named), 600 - PIPELINE_DELAY // 10)  # from the first image's tick on
         for progress, setpoint in zip(world.progress, world.setpoints):
             moving = progress.state != ExecutionProgress.WAITING
             self.assertEqual(len(setpoint.points), 1 if moving else 0)

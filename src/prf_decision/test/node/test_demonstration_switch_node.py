@@ -17,7 +17,7 @@ from actionlib_msgs.msg import GoalStatus
 from prf_msgs.msg import (ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress,
                           SkillTrajectory)
 
-sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test"))
+sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
 from scripted_world import PATIENCE, GoalTest, World  # noqa: E402
 
 FIRST, SECOND = 0.0, 0.1  # m, where the skills end beside the target's axis
@@ -37,8 +37,8 @@ class PlannedWorld(World):
     """With a planner of its own instead of the scripted one."""
 
     def __init__(self, folder):
-        share = rospkg.RosPack().get_path("elte_planner")
-        with open(share + "/config/skill_planner.yaml", encoding="utf-8") as file:
+        package = rospkg.RosPack().get_path("elte_planner")
+        with open(package + "/config/skill_planner.yaml", encoding="utf-8") as file:
             parameters = yaml.safe_load(file)
         parameters["demonstration"] = os.path.join(folder, "first.csv")
         rospy.set_param("skill_planner", parameters)

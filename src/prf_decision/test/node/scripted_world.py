@@ -40,11 +40,11 @@ def joint_state(ms, speeds=None):
     return message
 
 
-def forecast(ms, unseen=0):
-    """A target that stands 0.4 m ahead of the skill's last pose; not seen for so many ms."""
-    status = TargetForecast.COASTING if unseen else TargetForecast.TRACKING
-    message = TargetForecast(status=status, measured=not unseen)
-    message.since_measurement = rospy.Duration(0.001 * unseen)
+def forecast(ms, age=0):
+    """A target that stands 0.4 m ahead of the skill's last pose; last measured so many ms before."""
+    status = TargetForecast.COASTING if age else TargetForecast.TRACKING
+    message = TargetForecast(status=status, measured=not age)
+    message.since_measurement = rospy.Duration(0.001 * age)
     message.header.stamp = stamp(ms)
     message.header.frame_id = FRAME
     for horizon in (0.0, 0.5):
@@ -70,7 +70,7 @@ def trajectory(progress):
 
 
 class World:
-    """Plays a run to the node and collects what it answers."""
+    """Plays a run to the node and collects what it publishes."""
 
     def __init__(self):
         self.joint_states = rospy.Publisher("joint_states", JointState, queue_size=1000)
@@ -116,7 +116,7 @@ class World:
 
     def play(self, first, last, skew=lambda: 0):
         """Ticks in [first, last) ms of the run; an image arrives 40 ms after its exposure, and
-        `skew` ms more. Returns when every tick is answered."""
+        `skew` ms more. Returns when every tick has its progress."""
         ticks = [(ms, 0, ms) for ms in range(self.start + first, self.start + last, 10)]
         images = []
         due = 0
@@ -126,8 +126,8 @@ class World:
                 images.append((self.start + due, 1, self.start + ms))
         for _, is_image, ms in sorted(ticks + images):
             if is_image:
-                unseen = max(0, ms - self.start - self.target_hides)
-                self.forecasts.publish(forecast(ms, unseen))
+                age = max(0, ms - self.start - self.target_hides)
+                self.forecasts.publish(forecast(ms, age))
                 continue
             self.joint_states.publish(joint_state(ms, self.joint_speeds))
             self.ticks += 1
@@ -153,7 +153,7 @@ class GoalTest(unittest.TestCase):
         type(self).epoch -= 100000
         self.world.begin(self.epoch)
         self.now = 0
-        self.play(0.1)  # a goal before the first tick would belong to the run before
+        self.play(0.1)  # a goal before the first tick would be one of the run before
 
     def play(self, seconds):
         until = self.now + int(1000 * seconds)

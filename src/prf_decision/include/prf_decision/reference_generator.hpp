@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the hand shall be: moves the cursor along the plan as the published state says, takes the
+// reference pose from the plan, its approach or the target, and limits the step of the set-point to
+// it (setpoint_limiter.hpp).
+//
+//   state                        cursor    reference
+//   forward                      forward   the plan; on the approach relative to the target
+//   reverse, retract             back      the same
+//   pause                        stands    on the approach relative to the target, else none
+//   tracking, done               stands    the demonstrated pose relative to the target, `lead`
+//   later;
+//                                          adapted once: the plan's last pose
+//   waiting, stopped             stands    none; the set-point begins where the hand is measured
+// Without a reference the arm holds.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "prf_decision/approach.hpp"
+#include "prf_decision/decision_fsm.hpp"
+#include "prf_decision/plan_receiver.hpp"
+#include "prf_decision/setpoint_limiter.hpp"
+
+namespace prf_decision {
+
+enum class Adaptation {
+  kContinuous,  // to every forecast; HMM and guards steer the execution
+  kOnce         // to the first forecast, then executed whatever the target does
+};
+
+struct ReferenceParams {
+  Adaptation adaptation = Adaptation::kContinuous;
+  Duration lead{0};               // the tracked goal is taken this long after the tick
+  double approach_length = 0;     // end of the skill that is executed relative to the target, m
+  double tracking_tolerance = 0;  // of the set-point from its reference, m
+  CatchUpParams catch_up;
+
+  // std::invalid_argument names the parameter, its value and the bound.
+  void validate() const;
+};
+
+struct ReferenceInput {
+  Stamp stamp{0};
+  Duration since_last_tick{0};
+  ExecutionState state = ExecutionState::kWaiting;
+  std::optional<Pose> hand;          // as measured
+  const TargetForecast* forecast{};  // null: none that the hand may follow
+  bool violation = false;            // a guard reports one
+};
+
+struct ReferenceResult {
+  std::optional<MovingPose> setpoint;  // none: hold
+  bool at_start = false;               // cursor and set-point are at the start of the plan
+};
+
+struct GoalDistance {
+  double distance = 0;  // m
+  double axis = 0;      // to the line along which the hand arrives there, m
+};
+
+class ReferenceGenerator {
+ public:
+  explicit ReferenceGenerator(const ReferenceParams& params) : params_(params) {}
+
+  void set_params(const ReferenceParams& params) { params_ = params; }
+
+  // A newer plan of the same demonstration; the cursor stays where it is.
+  void update_plan(const PlannedSkill& planned);
+  // The first plan of another demonstration.
+  void replace_plan(const PlannedSkill& planned);
+
+  // One tick.
+  [[nodiscard]] ReferenceResult step(const ReferenceInput& input);
+
+  [[nodiscard]] const Trajectory* plan() const { return plan_.get(); }
+  [[nodiscard]] double cursor() const { return cursor_; }
+  [[nodiscard]] bool is_complete() const { return plan_ && at_end(*plan_, cursor_); }
+  // How long the set-point has tracked the goal without interruption at this tick.
+  [[nodiscard]] std::optional<Duration> tracked_for(Stamp stamp) const;
+  // From the set-point to the goal at this tick.
+  [[nodiscard]] std::optional<GoalDistance> goal_distance(const TargetForecast& forecast,
+                                                          Stamp stamp) const;
+
+ private:
+  void move_cursor(const ReferenceInput& input);
+  void follow_target(const ReferenceInput& input);
+  [[nodiscard]] bool is_relative_to_target() const;
+  [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
+  [[nodiscard]] std::optional<MovingPose> reference(const ReferenceInput& input) const;
+
+  ReferenceParams params_;
+  std::shared_ptr<const Trajectory> plan_;
+  Approach approach_;  // of the plan
+  double cursor_ = 0;
+  std::optional<MovingPose> target_;  // that the approach follows
+  std::optional<Pose> setpoint_;
+  std::optional<Stamp> tracked_since_;
+};
+
+}  // namespace prf_decision

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Executes the skill: at every control tick it lets the belief (belief_tracker.hpp) and the guards
+// (guards.hpp) drive the state machine (decision_fsm.hpp), and gives the set-point of the state
+// (reference_generator.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "prf_decision/belief_tracker.hpp"
+#include "prf_decision/execution_fsm.hpp"
+#include "prf_decision/guards.hpp"
+#include "prf_decision/plan_receiver.hpp"
+#include "prf_decision/reference_generator.hpp"
+
+namespace prf_decision {
+
+struct DecisionParams {
+  bool autostart = true;   // the first execution begins without a goal
+  Duration hold_time{0};   // the target must be tracked for this long
+  Duration dwell_time{0};  // least time in a state before the HMM may change it
+  Duration time_limit{0};  // from the execution's first tick
+  ReferenceParams reference;
+  GuardParams guards;
+  HmmParams hmm;
+
+  // std::invalid_argument names the parameter, its value and the bound.
+  void validate() const;
+};
+
+// One request of the action execute_skill.
+struct SkillGoal {
+  Duration time_limit{0};          // 0: as in the parameters
+  Duration hold_time{0};           // 0: as in the parameters
+  bool resume = false;             // from where the cursor stands; else back to the start first
+  std::string demonstration = {};  // as the planner reads it; empty: the one accepted before
+
+  void validate() const;
+};
+
+struct Progress {
+  Stamp stamp{0};
+  Stamp forecast_stamp{0};  // 0: none yet
+  ExecutionState state = ExecutionState::kWaiting;
+  Event cause = Event::kHazard;  // that led into the state
+  std::string reason;            // why the state holds; empty while nothing is to be said
+  Eigen::Vector3d posterior = Eigen::Vector3d::Zero();
+  double cursor = 0;
+  double fraction = 0;     // of the skill executed, 0 .. 1
+  std::size_t frozen = 0;  // nodes
+  Duration time_to_go{0};
+  std::optional<GoalDistance> goal_distance;  // of the set-point, to where the skill ends now
+  NamedDemonstration demonstration;           // that the planner shall follow
+  std::string refusal;  // why the requested demonstration is not switched to, at this tick
+};
+
+struct ExecutiveResult {
+  Progress progress;
+  std::optional<MovingPose> setpoint;  // none: hold
+};
+
+class SkillExecutive {
+ public:
+  // Validates the parameters.
+  explicit SkillExecutive(const DecisionParams& params);
+
+  [[nodiscard]] ExecutiveResult update(const Tick& tick);
+
+  // A goal can be given when no execution is under way. It begins with the next tick; one that
+  // names a demonstration when the planner has accepted that, or not at all: see Progress::refusal.
+  [[nodiscard]] bool can_begin() const { return !goals_.next && fsm_.can_begin(); }
+  void begin(const SkillGoal& goal);
+  // Whether a goal waits for the planner to accept its demonstration.
+  [[nodiscard]] bool is_requesting() const { return plans_.demonstration().is_requested(); }
+
+  // Stops whatever is under way at the next tick, in any state.
+  void preempt() { goals_.preempt_requested = true; }
+
+  // Other parameters from the next tick on; adaptation, autostart and the HMM stay as they are.
+  void tune(const DecisionParams& params);
+
+  // The whole state in one line, for logs.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  struct Goals {
+    std::optional<SkillGoal> next;  // that is to begin
+    SkillGoal current;              // under way or ended
+    Stamp began{0};
+    bool preempt_requested = false;
+    std::string refusal;  // of this tick
+  };
+  struct Assessment {
+    Event event;
+    std::string reason;
+    bool violation;
+  };
+
+  [[nodiscard]] bool adapts_once() const {
+    return params_.reference.adaptation == Adaptation::kOnce;
+  }
+  void receive_plan(const PlanResult& result);
+  void end_unanswered_request(Stamp stamp);
+  void begin_execution(Stamp stamp);
+  void switch_demonstration();
+  [[nodiscard]] GuardInput guard_input(const Tick& tick) const;
+  [[nodiscard]] Assessment assess(const Tick& tick) const;
+  void change_state(const Tick& tick, const Assessment& assessment);
+  [[nodiscard]] const TargetForecast* followed_forecast(const Tick& tick) const;
+  [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool violation);
+  [[nodiscard]] Progress progress(Stamp stamp) const;
+
+  DecisionParams params_;
+  BeliefTracker belief_;
+  PlanReceiver plans_;
+  ExecutionFsm fsm_;
+  ReferenceGenerator reference_;
+  Goals goals_;
+  std::optional<Stamp> last_tick_;
+};
+
+}  // namespace prf_decision

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/reference_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <prf_core/require.hpp>
+
+#include "prf_decision/guards.hpp"
+
+namespace prf_decision {
+namespace {
+
+bool moves_cursor(ExecutionState state) {
+  return state == ExecutionState::kForward || state == ExecutionState::kReverse ||
+         state == ExecutionState::kRetract;
+}
+
+bool tracks(ExecutionState state) {
+  return state == ExecutionState::kTracking || state == ExecutionState::kDone;
+}
+
+// The arm stands: it stopped, or was left by a decision before this one.
+bool holds(ExecutionState state) {
+  return state == ExecutionState::kWaiting || state == ExecutionState::kStopped;
+}
+
+bool are_near(const Pose& a, const Pose& b, double distance) {
+  constexpr double kAngle = 0.05;  // rad, 3 degrees
+  return (a.position - b.position).norm() <= distance &&
+         a.orientation.angularDistance(b.orientation) <= kAngle;
+}
+
+MovingPose at_rest(const Pose& pose) { return {pose, {0, 0, 0}, {0, 0, 0}}; }
+
+}  // namespace
+
+void ReferenceParams::validate() const {
+  using prf_core::require;
+  require(lead >= Duration{0}, "lead", to_seconds(lead), ">= 0 s");
+  require(approach_length >= 0 && std::isfinite(approach_length), "approach_length",
+          approach_length, ">= 0 m and finite");
+  require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
+          tracking_tolerance, "> 0 m and finite");
+  catch_up.validate();
+}
+
+void ReferenceGenerator::update_plan(const PlannedSkill& planned) {
+  plan_ = planned.plan;
+  cursor_ = std::min(cursor_, static_cast<double>(plan_->poses.size() - 1));
+  if (!planned.forecast || planned.forecast->predictions.empty()) {
+    approach_ = Approach();
+  } else {
+    approach_.update(*plan_, cursor_, planned.stamp, *planned.forecast);
+  }
+}
+
+void ReferenceGenerator::replace_plan(const PlannedSkill& planned) {
+  approach_ = Approach();
+  update_plan(planned);
+}
+
+void ReferenceGenerator::move_cursor(const ReferenceInput& input) {
+  if (!moves_cursor(input.state)) return;
+  const auto direction =
+      input.state == ExecutionState::kForward ? Direction::kForward : Direction::kBack;
+  cursor_ = advance_cursor(*plan_, cursor_, direction, input.since_last_tick);
+}
+
+// The target as it is forecast, measured or coasting; without a forecast, where it was last.
+void ReferenceGenerator::follow_target(const ReferenceInput& input) {
+  if (target_) target_ = at_rest(target_->pose);
+  if (!input.forecast) return;
+  target_ = predicted_target(*input.forecast, input.stamp + params_.lead).target;
+}
+
+bool ReferenceGenerator::is_relative_to_target() const {
+  return params_.adaptation == Adaptation::kContinuous && plan_ && target_ &&
+         approach_.weight(cursor_, params_.approach_length) > 0;
+}
+
+MovingPose ReferenceGenerator::hand_on_plan(Direction direction) const {
+  return is_relative_to_target()
+             ? approach_.hand(cursor_, direction, *target_, params_.approach_length)
+             : hand_at(*plan_, cursor_, direction);
+}
+
+std::optional<MovingPose> ReferenceGenerator::reference(const ReferenceInput& input) const {
+  if (input.state == ExecutionState::kForward) return hand_on_plan(Direction::kForward);
+  if (moves_cursor(input.state)) {
+    return hand_on_plan(cursor_ > 0 ? Direction::kBack : Direction::kStand);
+  }
+  if (input.state == ExecutionState::kPause && is_relative_to_target()) {
+    return hand_on_plan(Direction::kStand);
+  }
+  if (!tracks(input.state)) return std::nullopt;
+  if (params_.adaptation == Adaptation::kOnce) return hand_at(*plan_, cursor_, Direction::kStand);
+  if (input.violation || !input.forecast) return std::nullopt;
+  return goal_at(*input.forecast, *plan_, input.stamp + params_.lead);
+}
+
+ReferenceResult ReferenceGenerator::step(const ReferenceInput& input) {
+  move_cursor(input);
+  follow_target(input);
+  const std::optional<MovingPose> wanted = reference(input);
+  if (input.hand && (holds(input.state) || !setpoint_)) setpoint_ = input.hand;
+  ReferenceResult result;
+  bool tracked = false;
+  if (wanted) {
+    result.setpoint =
+        setpoint_ ? limited_setpoint(*setpoint_, *wanted, params_.catch_up, input.since_last_tick)
+                  : *wanted;
+    setpoint_ = result.setpoint->pose;
+    result.at_start =
+        cursor_ == 0 && are_near(*setpoint_, wanted->pose, params_.tracking_tolerance);
+    tracked = input.state == ExecutionState::kTracking &&
+              (wanted->pose.position - setpoint_->position).norm() <= params_.tracking_tolerance;
+  } else if (!holds(input.state) && setpoint_) {
+    result.setpoint = at_rest(*setpoint_);
+  }
+  if (!tracked) {
+    tracked_since_.reset();
+  } else if (!tracked_since_) {
+    tracked_since_ = input.stamp;
+  }
+  return result;
+}
+
+std::optional<Duration> ReferenceGenerator::tracked_for(Stamp stamp) const {
+  if (!tracked_since_) return std::nullopt;
+  return stamp - *tracked_since_;
+}
+
+std::optional<GoalDistance> ReferenceGenerator::goal_distance(const TargetForecast& forecast,
+                                                              Stamp stamp) const {
+  if (!plan_ || !setpoint_ || forecast.predictions.empty()) return std::nullopt;
+  const Pose goal = goal_at(forecast, *plan_, stamp).pose;
+  const Eigen::Vector3d offset = setpoint_->position - goal.position;
+  const Eigen::Vector3d axis = goal.orientation * Eigen::Vector3d::UnitZ();
+  return GoalDistance{offset.norm(), (offset - offset.dot(axis) * axis).norm()};
+}
+
+}  // namespace prf_decision

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/skill_executive.hpp"
+
+#include <prf_core/require.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "sentence.hpp"
+
+namespace prf_decision {
+namespace {
+
+using prf_core::require;
+
+Event event_of(Intent intent) {
+  switch (intent) {
+    case Intent::kForward:
+      return Event::kCalm;
+    case Intent::kPause:
+      return Event::kUnsteady;
+    case Intent::kReverse:
+      break;
+  }
+  return Event::kUnstable;
+}
+
+const DecisionParams& validated(const DecisionParams& params) {
+  params.validate();
+  return params;
+}
+
+}  // namespace
+
+void DecisionParams::validate() const {
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
+  require(dwell_time >= Duration{0}, "dwell_time", to_seconds(dwell_time), ">= 0 s");
+  require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0 s");
+  reference.validate();
+  guards.validate();
+  hmm.validate();
+}
+
+void SkillGoal::validate() const {
+  require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0 s");
+  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
+  require(!resume || demonstration.empty(), "demonstration", demonstration,
+          "empty with resume, which goes on with the one before");
+}
+
+SkillExecutive::SkillExecutive(const DecisionParams& params)
+    : params_(validated(params)), belief_(params.hmm), reference_(params.reference) {
+  if (params_.autostart) goals_.next = SkillGoal();
+}
+
+void SkillExecutive::begin(const SkillGoal& goal) {
+  goal.validate();
+  if (!can_begin()) throw std::invalid_argument("an execution is under way");
+  if (!goal.demonstration.empty()) plans_.demonstration().request(goal.demonstration);
+  goals_.next = goal;
+  goals_.preempt_requested = false;
+}
+
+void SkillExecutive::tune(const DecisionParams& params) {
+  params.validate();
+  const Adaptation adaptation = params_.reference.adaptation;
+  params_ = params;
+  params_.reference.adaptation = adaptation;
+  reference_.set_params(params_.reference);
+}
+
+ExecutiveResult SkillExecutive::update(const Tick& tick) {
+  if (!last_tick_) last_tick_ = tick.stamp;
+  goals_.refusal.clear();
+  // The planner's result is for the last tick: before this one's forecasts.
+  if (tick.plan_result) receive_plan(*tick.plan_result);
+  belief_.update(tick.forecasts);
+  end_unanswered_request(tick.stamp);
+  if (goals_.next && !is_requesting()) begin_execution(tick.stamp);
+  switch_demonstration();
+  const Assessment assessment = assess(tick);
+  change_state(tick, assessment);
+  const std::optional<MovingPose> setpoint = move(tick, assessment.violation);
+  last_tick_ = tick.stamp;
+  return {progress(tick.stamp), setpoint};
+}
+
+void SkillExecutive::receive_plan(const PlanResult& result) {
+  const ReceiveResult received = plans_.receive(result, belief_.forecast());
+  if (received.plan) reference_.update_plan(*received.plan);
+  if (received.refusal) {
+    goals_.next.reset();
+    goals_.refusal = *received.refusal;
+  }
+}
+
+// The planner does not answer, or the goal was cancelled meanwhile.
+void SkillExecutive::end_unanswered_request(Stamp stamp) {
+  if (!is_requesting()) return;
+  if (plans_.demonstration().is_overdue(stamp)) {
+    goals_.refusal = sentence("the planner did not answer within ",
+                              to_seconds(DemonstrationSwitch::kPatience), " s");
+  }
+  if (goals_.preempt_requested) goals_.refusal = "preempted";
+  if (goals_.refusal.empty()) return;
+  plans_.demonstration().end_request();
+  goals_.next.reset();
+}
+
+void SkillExecutive::begin_execution(Stamp stamp) {
+  goals_.current = *std::exchange(goals_.next, std::nullopt);
+  auto& [time_limit, hold_time, resume, demonstration] = goals_.current;
+  if (time_limit == Duration{0}) time_limit = params_.time_limit;
+  if (hold_time == Duration{0}) hold_time = params_.hold_time;
+  goals_.began = stamp;
+  const bool leaves_start = !resume && reference_.cursor() > 0;
+  fsm_.begin(stamp, leaves_start || plans_.demonstration().is_returning());
+}
+
+// At the start of the skill before, once an execution has led there and a plan has come.
+void SkillExecutive::switch_demonstration() {
+  if (fsm_.state() == State::kIdle || reference_.cursor() > 0) return;
+  if (const auto planned = plans_.arrive()) reference_.replace_plan(*planned);
+}
+
+GuardInput SkillExecutive::guard_input(const Tick& tick) const {
+  GuardInput input;
+  input.tick = tick.stamp;
+  input.goal_time = tick.stamp + params_.reference.lead;
+  input.since_last_tick = tick.stamp - *last_tick_;
+  input.has_goal = fsm_.state() != State::kIdle;
+  input.measured = belief_.measured();
+  input.forecast = belief_.forecast().get();
+  input.forecast_silent = tick.forecast_silent;
+  input.plan = plans_.demonstration().is_returning() ? plans_.next_plan() : reference_.plan();
+  input.no_plan = plans_.no_plan();
+  input.planner_silent = tick.planner_silent;
+  return input;
+}
+
+SkillExecutive::Assessment SkillExecutive::assess(const Tick& tick) const {
+  if (auto violation = check_guards(params_.guards, guard_input(tick), adapts_once())) {
+    return {violation->event, std::move(violation->reason), true};
+  }
+  if (is_rewinding(fsm_.state())) return {Event::kClear, "back to the start of the skill", false};
+  if (adapts_once()) return {Event::kCalm, "", false};
+  const Intent intent = belief_.intent();
+  if (intent == Intent::kForward) return {Event::kCalm, "", false};
+  const auto index = static_cast<std::size_t>(intent);
+  const double speed = belief_.forecast()->predictions[0].target.linear_velocity.norm();
+  return {event_of(intent),
+          sentence("belief in ", kIntentNames[index], " ",
+                   belief_.posterior()[static_cast<Eigen::Index>(index)], ", target speed ", speed,
+                   " m/s"),
+          false};
+}
+
+// At most one change per tick: the first event, in this order, that has a row.
+void SkillExecutive::change_state(const Tick& tick, const Assessment& assessment) {
+  const auto fire = [&](Event event, const std::string& reason) {
+    return fsm_.fire(tick.stamp, event, reason, params_.dwell_time);
+  };
+  if (std::exchange(goals_.preempt_requested, false) && fire(Event::kPreempted, "preempted")) {
+    return;
+  }
+  const std::string& reason = assessment.reason;
+  const Duration elapsed = tick.stamp - goals_.began;
+  const Duration limit = goals_.current.time_limit;
+  if (elapsed > limit && fire(Event::kTimeUp, sentence("not done within ", to_seconds(limit), " s",
+                                                       reason.empty() ? "" : ": ", reason))) {
+    return;
+  }
+  if (fire(assessment.event, reason)) return;
+  if (reference_.is_complete() &&
+      fire(Event::kComplete, sentence("skill complete after ", to_seconds(elapsed), " s"))) {
+    return;
+  }
+  const Duration hold_time = goals_.current.hold_time;
+  const auto tracked_for = reference_.tracked_for(tick.stamp);
+  if (tracked_for && *tracked_for >= hold_time &&
+      fire(Event::kHeld, sentence("tracked for ", to_seconds(hold_time), " s"))) {
+    return;
+  }
+  fsm_.explain(reason);
+}
+
+// The newest forecast if the hand may follow it on the approach, which a wrong one must not lead.
+const TargetForecast* SkillExecutive::followed_forecast(const Tick& tick) const {
+  const GuardInput input = guard_input(tick);
+  const bool usable =
+      input.forecast && !input.forecast_silent && !input.forecast->predictions.empty() &&
+      !check_status(params_.guards, input) && !check_forecast(params_.guards, input);
+  return usable ? input.forecast : nullptr;
+}
+
+std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation) {
+  const ReferenceResult result =
+      reference_.step({tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
+                       followed_forecast(tick), violation});
+  if (result.at_start && !plans_.demonstration().is_returning()) {
+    fsm_.fire(tick.stamp, Event::kAtStart, "", params_.dwell_time);
+  }
+  return result.setpoint;
+}
+
+Progress SkillExecutive::progress(Stamp stamp) const {
+  Progress progress;
+  progress.stamp = stamp;
+  progress.state = fsm_.published_state();
+  progress.cause = fsm_.cause();
+  progress.reason = fsm_.reason();
+  progress.posterior = adapts_once() ? Eigen::Vector3d::UnitX() : belief_.posterior();
+  progress.cursor = reference_.cursor();
+  progress.demonstration = plans_.demonstration().wanted();
+  progress.refusal = goals_.refusal;
+  const Trajectory* plan = reference_.plan();
+  if (plan) progress.fraction = progress.cursor / static_cast<double>(plan->poses.size() - 1);
+  if (plans_.demonstration().state() != SwitchState::kSettled) {
+    if (plans_.next_plan()) progress.time_to_go = plans_.next_plan()->times.back();
+  } else if (plan) {
+    progress.frozen = frozen_nodes(*plan, progress.cursor);
+    progress.time_to_go = time_to_go(*plan, progress.cursor);
+  }
+  if (const auto& forecast = belief_.forecast()) {
+    progress.forecast_stamp = forecast->stamp;
+    progress.goal_distance = reference_.goal_distance(*forecast, stamp);
+  }
+  return progress;
+}
+
+std::string SkillExecutive::describe() const {
+  return sentence(fsm_.describe(), "; demonstration ", name(plans_.demonstration().state()),
+                  "; cursor ", reference_.cursor(), goals_.next ? "; a goal waits" : "");
+}
+
+}  // namespace prf_decision

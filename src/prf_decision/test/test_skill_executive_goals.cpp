@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Executions on demand: begun by a goal, preempted in any state.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+
+#include "executive_world.hpp"
+
+namespace prf_decision {
+namespace {
+
+DecisionParams on_demand() {
+  DecisionParams parameters = usual_params();
+  parameters.autostart = false;
+  return parameters;
+}
+
+constexpr double kSway = 0.6;  // m/s, goes back
+
+// Brings a world with an execution under way into each state.
+const std::map<ExecutionState, std::function<void(World&)>> kWays{
+    {ExecutionState::kWaiting,
+     [](World& world) {
+       world.status = TargetStatus::kNoTarget;
+       world.run(0.2);
+     }},
+    {ExecutionState::kForward, [](World& world) { world.run(0.5); }},
+    {ExecutionState::kPause,
+     [](World& world) {
+       world.run(0.5);
+       world.planner_silent = true;
+       world.run(0.1);
+     }},
+    {ExecutionState::kReverse,
+     [](World& world) {
+       world.run(0.7);
+       world.velocity.x() = kSway;
+       world.until(ExecutionState::kReverse, 3);
+     }},
+    {ExecutionState::kTracking, [](World& world) { world.until(ExecutionState::kTracking, 2); }},
+    {ExecutionState::kRetract,
+     [](World& world) {
+       world.until(ExecutionState::kTracking, 2);
+       world.velocity.x() = kSway;
+       world.until(ExecutionState::kRetract, 3);
+     }},
+};
+
+TEST(Preemption, StopsInEveryStateWithinOneTickAndHolds) {
+  for (const auto& [state, lead_to] : kWays) {
+    World world(on_demand());
+    world.executive().begin({});
+    lead_to(world);
+    ASSERT_EQ(world.tick().progress.state, state);
+    world.executive().preempt();
+    const ExecutiveResult result = world.tick();
+    EXPECT_EQ(result.progress.state, ExecutionState::kStopped) << name(state);
+    EXPECT_EQ(result.progress.cause, Event::kPreempted);
+    EXPECT_EQ(result.progress.reason, "preempted");
+    EXPECT_FALSE(result.setpoint) << "the arm brakes by itself when there is none";
+    EXPECT_EQ(world.run(1).progress.state, ExecutionState::kStopped);
+  }
+}
+
+TEST(Preemption, DoesNothingBeforeAGoalAndAfterTheEnd) {
+  World idle(on_demand());
+  idle.executive().preempt();
+  EXPECT_EQ(idle.tick().progress.state, ExecutionState::kWaiting);
+  idle.executive().begin({});
+  EXPECT_EQ(idle.run(0.2).progress.state, ExecutionState::kForward);
+
+  World done;
+  done.until(ExecutionState::kDone, 4);
+  done.executive().preempt();
+  EXPECT_EQ(done.tick().progress.state, ExecutionState::kDone);
+}
+
+TEST(SkillGoal, IsNeededUnlessTheFirstExecutionStartsByItself) {
+  World world(on_demand());
+  const ExecutiveResult result = world.run(1);
+  EXPECT_EQ(result.progress.state, ExecutionState::kWaiting);
+  EXPECT_EQ(result.progress.reason, "no goal yet");
+  EXPECT_EQ(result.progress.cursor, 0);
+  EXPECT_TRUE(world.executive().can_begin());
+  EXPECT_FALSE(World().executive().can_begin());
+}
+
+TEST(SkillGoal, IsRefusedWhileAnExecutionIsUnderWayAndWithNegativeTimes) {
+  World world(on_demand());
+  EXPECT_THROW(world.executive().begin({from_seconds(-1), {}, false}), std::invalid_argument);
+  EXPECT_THROW(world.executive().begin({{}, from_seconds(-1), false}), std::invalid_argument);
+  world.executive().begin({});
+  EXPECT_THROW(world.executive().begin({}), std::invalid_argument);
+  world.run(0.5);
+  EXPECT_THROW(world.executive().begin({}), std::invalid_argument);
+}
+
+TEST(SkillGoal, CountsItsOwnTimeLimitAndHoldTimeFromItsBeginning) {
+  World world(on_demand());
+  world.run(30);  // more than the time limit
+  world.executive().begin({from_seconds(4), from_seconds(0.4), false});
+  world.until(ExecutionState::kTracking, 1.5);
+  EXPECT_EQ(world.until(ExecutionState::kDone, 0.6).progress.reason, "tracked for 0.40 s");
+
+  world.executive().begin({from_seconds(0.3), {}, true});
+  world.velocity.x() = 0.01;
+  EXPECT_EQ(world.until(ExecutionState::kStopped, 1).progress.cause, Event::kTimeUp);
+}
+
+TEST(SkillGoal, GoesBackToTheStartWhateverTheHmmSaysAndThenForward) {
+  World world;
+  world.until(ExecutionState::kDone, 4);
+  world.executive().begin({});
+  Progress progress = world.tick().progress;
+  EXPECT_EQ(progress.state, ExecutionState::kReverse);
+  for (double before = 10; progress.state == ExecutionState::kReverse; before = progress.cursor) {
+    progress = world.tick().progress;
+    EXPECT_EQ(progress.state, before > 0 ? ExecutionState::kReverse : ExecutionState::kForward);
+  }
+  EXPECT_EQ(world.until(ExecutionState::kTracking, 3).progress.cursor, 10);
+}
+
+TEST(SkillGoal, PausesOnTheWayBackForAHazardAndGoesOn) {
+  World world;
+  world.until(ExecutionState::kDone, 4);
+  world.executive().begin({});
+  world.run(0.3);
+  world.planner_silent = true;
+  const double paused = world.run(0.3).progress.cursor;
+  EXPECT_EQ(world.tick().progress.state, ExecutionState::kPause);
+  world.planner_silent = false;
+  EXPECT_EQ(world.tick().progress.state, ExecutionState::kReverse);
+  EXPECT_LT(world.tick().progress.cursor, paused);
+}
+
+// An executive that was restarted, or an arm that was moved while it held.
+TEST(SkillGoal, BeginsWhereTheHandIsWithoutAJump) {
+  World world;
+  world.hand = pose_at(0.5, 0.1, 0.45);
+  const ExecutiveResult first = world.until(ExecutionState::kForward, 0.1);
+  ASSERT_TRUE(first.setpoint);
+  EXPECT_LT((first.setpoint->pose.position - world.hand->position).norm(), 0.006);
+  world.run(0.2);
+  world.executive().preempt();
+  world.tick();
+  world.hand = pose_at(0.4, -0.1, 0.45);
+  world.run(0.1);
+  world.executive().begin({{}, {}, true});
+  world.forget_setpoint();
+  const ExecutiveResult again = world.tick();
+  EXPECT_EQ(again.progress.state, ExecutionState::kForward);
+  EXPECT_LT((again.setpoint->pose.position - world.hand->position).norm(), 0.006);
+}
+
+TEST(SkillGoal, ResumesWhereTheLastExecutionEnded) {
+  World world;
+  world.run(0.6);
+  world.executive().preempt();
+  const double cursor = world.tick().progress.cursor;
+  world.run(0.5);
+  world.executive().begin({{}, {}, true});
+  const ExecutiveResult result = world.tick();
+  EXPECT_EQ(result.progress.state, ExecutionState::kForward);
+  EXPECT_GT(result.progress.cursor, cursor);
+}
+
+TEST(Tuning, ActsFromTheNextTickAndIsRefusedWhole) {
+  World world;
+  world.until(ExecutionState::kTracking, 2);
+  DecisionParams tuned = usual_params();
+  tuned.guards.max_target_speed = 0.05;
+  tuned.reference.tracking_tolerance = -1;
+  EXPECT_THROW(world.executive().tune(tuned), std::invalid_argument);
+  world.velocity.x() = 0.1;
+  EXPECT_EQ(world.run(0.2).progress.state, ExecutionState::kTracking);
+  tuned.reference.tracking_tolerance = 0.02;
+  world.executive().tune(tuned);
+  EXPECT_EQ(world.tick().progress.state, ExecutionState::kPause);
+}
+
+TEST(Progress, TellsTheDistanceToTheGoalAndToItsAxis) {
+  World world;
+  world.position.y() = 0.03;  // the skill still ends at y = 0 and z is the axis: both are off
+  const Progress progress = world.until(ExecutionState::kForward, 0.1).progress;
+  ASSERT_TRUE(progress.goal_distance);
+  EXPECT_NEAR(progress.goal_distance->distance, std::hypot(0.3, 0.03), 0.005);
+  EXPECT_NEAR(progress.goal_distance->axis, std::hypot(0.3, 0.03), 0.005);
+  EXPECT_EQ(world.until(ExecutionState::kTracking, 2).progress.fraction, 1);
+}
+
+}  // namespace
+}  // namespace prf_decision

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Violations of the guards while a skill is executed.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "executive_world.hpp"
+
+namespace prf_decision {
+namespace {
+
+// Every guard acts in forward while the HMM believes in Forward, and the execution goes on
+// afterwards.
+TEST(SkillExecutive, PausesForEveryHazardWhateverTheHmmBelievesAndGoesOnAfterIt) {
+  struct Hazard {
+    std::function<void(World&)> begin;
+    std::string reason;
+  };
+  const std::vector<Hazard> catalogue{
+      {[](World& w) { w.forecast_silent = true; }, "forecast silent for "},
+      {[](World& w) { w.planner_silent = true; }, "planner silent"},
+      {[](World& w) { w.plan = nullptr; }, "planner has no plan: no solution"},
+      {[](World& w) { w.status = TargetStatus::kNoTarget; }, "predictor has lost the target"},
+      {[](World& w) { w.status = TargetStatus::kLost; }, "predictor has lost the target"},
+      {[](World& w) { w.status = TargetStatus::kCoasting; }, "no measurement of the target for "},
+      {[](World& w) {
+         w.position = {2.5, 0, 0.5};
+       },
+       "forecast 2.51 m from the shoulder"},
+      {[](World& w) {
+         w.position = {1.6, 0, 0.5};
+       },
+       "goal 1.22 m from the shoulder"},
+      {[](World& w) { w.leap(0.31); }, "joint_states silent for 0.32 s"},
+  };
+  for (const auto& [begin, reason] : catalogue) {
+    World world;
+    world.until(ExecutionState::kForward, 0.1);
+    world.run(0.3);
+    const auto plan = world.plan;
+    begin(world);
+    const ExecutiveResult paused = world.until(ExecutionState::kPause, 0.4);
+    EXPECT_EQ(paused.progress.reason.rfind(reason, 0), 0u)
+        << paused.progress.reason << " for " << reason;
+    EXPECT_GT(paused.progress.posterior[0], 0.5);
+    world.forecast_silent = world.planner_silent = false;
+    world.status = TargetStatus::kTracking;
+    world.position = kTarget;
+    world.plan = plan;
+    world.until(ExecutionState::kDone, 4);
+  }
+}
+
+TEST(SkillExecutive, HoldsWhereItIsWhenAHazardEndsTheTracking) {
+  World world;
+  world.until(ExecutionState::kTracking, 2);
+  const ExecutiveResult before = world.run(0.1);
+  world.position = {2.5, 0, 0.5};
+  world.until(ExecutionState::kPause, 0.1);
+  const ExecutiveResult after = world.run(1);
+  EXPECT_EQ(after.setpoint->pose.position, before.setpoint->pose.position);
+}
+
+TEST(SkillExecutive, KeepsTrackingTheLastBeliefNoLongerThanTheFirstLimitOnceDone) {
+  World world;
+  const ExecutiveResult done = world.until(ExecutionState::kDone, 5);
+  world.status = TargetStatus::kCoasting;
+  world.velocity = {0, 0.2, 0};
+  world.run(0.5);
+  const ExecutiveResult held = world.run(1);
+  EXPECT_EQ(held.progress.state, ExecutionState::kDone);
+  EXPECT_EQ(held.setpoint->linear_velocity.norm(), 0);
+  EXPECT_EQ(held.progress.reason, done.progress.reason);
+}
+
+TEST(SkillExecutive, PausesThenGoesBackThenStopsWhenTheTargetStaysLost) {
+  World world;
+  world.until(ExecutionState::kForward, 0.1);
+  world.run(0.5);
+  world.status = TargetStatus::kCoasting;
+  world.until(ExecutionState::kPause, 0.4);
+  const ExecutiveResult back = world.until(ExecutionState::kReverse, 0.8);
+  EXPECT_EQ(back.progress.reason.rfind("no measurement of the target for 1.0", 0), 0u)
+      << back.progress.reason;
+  const ExecutiveResult stopped = world.until(ExecutionState::kStopped, 1.1);
+  EXPECT_EQ(stopped.progress.reason.rfind("no measurement of the target for 2.0", 0), 0u);
+  EXPECT_FALSE(stopped.setpoint);
+  world.status = TargetStatus::kTracking;
+  EXPECT_EQ(world.run(1).progress.state, ExecutionState::kStopped);
+}
+
+}  // namespace
+}  // namespace prf_decision
