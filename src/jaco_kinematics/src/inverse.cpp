@@ -3,7 +3,7 @@
 //   cost(q) = sum_i w_i (q_i - seed_i)^2 + limit_weight sum_{2,4,6} max(0, 1 - d_i /
 //   limit_margin)^2
 // First the seed's own neighbourhood: Newton to the pose with the self-motion that lowers the cost,
-// pulled posture_step farther to a better posture.
+// pulled null_space_step farther to a better posture.
 // It passes the shoulder's singularity, where the arm angle's branches exchange. If that does not
 // end close by within limits, the closed form is sampled on the feasible arcs of every branch, and
 // the cheapest are refined.
@@ -24,7 +24,7 @@ namespace {
 
 class Cost {
  public:
-  Cost(const JointVector& seed, const IkOptions& options) : seed_(seed), options_(options) {}
+  Cost(const JointVector& seed, const IkParams& options) : seed_(seed), options_(options) {}
 
   double value(const JointVector& q) const {
     double sum = (q - seed_).cwiseAbs2().dot(options_.weight);
@@ -36,7 +36,7 @@ class Cost {
   }
 
   // How far to go from q along a direction of self-motion: Newton's step to the least cost, and
-  // posture_step or less toward a better posture.
+  // null_space_step or less toward a better posture.
   double self_motion(const JointVector& q, const JointVector& direction) const {
     JointVector descent = options_.weight.cwiseProduct(seed_ - q);
     double curvature = direction.cwiseAbs2().dot(options_.weight);
@@ -49,8 +49,8 @@ class Cost {
       curvature += options_.limit_weight * slope * slope;
     }
     double length = direction.dot(descent) / curvature;
-    const double pull = posture_pull(q, direction);
-    length += options_.posture_step * pull / std::hypot(pull, kGentlePull);
+    const double pull = null_space_gradient(q, direction);
+    length += options_.null_space_step * pull / std::hypot(pull, kGentlePull);
     return length;
   }
 
@@ -70,15 +70,15 @@ class Cost {
 
   // Joints 2 and 6 away from limits and from their singularity at pi: each 0 from the margin on, at
   // most 1. (Joint 4 does not depend on the self-motion.)
-  double posture_pull(const JointVector& q, const JointVector& direction) const {
+  double null_space_gradient(const JointVector& q, const JointVector& direction) const {
     constexpr double kPeak = 2.598;  // 1 / max of u (1 - u^2)
     double pull = 0.0;
     for (int i : {1, 5}) {
       const double from_pi = q[i] - kPi;
       const double to_limit = jaco_joint_limits().upper[i] - kPi - std::abs(from_pi);
-      const double u = from_pi / options_.posture_margin;
+      const double u = from_pi / options_.null_space_margin;
       const double away = std::abs(u) < 1.0 ? kPeak * u * (1.0 - u * u) : 0.0;
-      const double depth = std::clamp(1.0 - to_limit / options_.posture_margin, 0.0, 1.0);
+      const double depth = std::clamp(1.0 - to_limit / options_.null_space_margin, 0.0, 1.0);
       pull += direction[i] * (away - std::copysign(depth, from_pi));
     }
     return pull;
@@ -86,7 +86,7 @@ class Cost {
 
   static constexpr double kGentlePull = 0.03;  // below this the step becomes smaller
   JointVector seed_;
-  IkOptions options_;
+  IkParams options_;
 };
 
 // `length` changed so little that q + length * direction keeps joints 2, 4, 6 within limits.
@@ -214,7 +214,7 @@ IkResult result_of(IkStatus status, const JointVector& q, const Eigen::Isometry3
 
 }  // namespace
 
-void IkOptions::validate() const {
+void IkParams::validate() const {
   for (int i = 0; i < 7; ++i) {
     if (!(std::isfinite(weight[i]) && weight[i] > 0.0)) {
       throw std::invalid_argument("weight[" + std::to_string(i) +
@@ -229,17 +229,17 @@ void IkOptions::validate() const {
     throw std::invalid_argument("limit_weight = " + std::to_string(limit_weight) +
                                 " rad^2 must not be below 0");
   }
-  if (!(std::isfinite(posture_margin) && posture_margin > 0.0)) {
-    throw std::invalid_argument("posture_margin = " + std::to_string(posture_margin) +
+  if (!(std::isfinite(null_space_margin) && null_space_margin > 0.0)) {
+    throw std::invalid_argument("null_space_margin = " + std::to_string(null_space_margin) +
                                 " rad must be above 0");
   }
-  if (!(std::isfinite(posture_step) && posture_step >= 0.0)) {
-    throw std::invalid_argument("posture_step = " + std::to_string(posture_step) +
+  if (!(std::isfinite(null_space_step) && null_space_step >= 0.0)) {
+    throw std::invalid_argument("null_space_step = " + std::to_string(null_space_step) +
                                 " rad must not be below 0");
   }
 }
 
-IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkOptions& options) {
+IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkParams& options) {
   constexpr double kNear = 0.35;  // [rad] of any joint
   options.validate();
   check_finite(seed, "seed");

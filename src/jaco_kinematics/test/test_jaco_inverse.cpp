@@ -67,9 +67,9 @@ TEST(JacoInverse, FindsAnySolutionOfEveryReachablePose) {
 
 TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   std::mt19937 generator(12);
-  IkOptions options;
+  IkParams options;
   options.limit_weight = 0.0;
-  options.posture_step = 0.0;
+  options.null_space_step = 0.0;
   for (int trial = 0; trial < 1000; ++trial) {
     const JointVector q = random_joints(&generator);
     const IkResult result = inverse(forward(q), q, options);
@@ -81,9 +81,9 @@ TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
 // The configuration the pose was made from is a solution, so the answer must not be farther.
 TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
   constexpr int kPoses = 2000;
-  IkOptions options;
+  IkParams options;
   options.limit_weight = 0.0;
-  options.posture_step = 0.0;
+  options.null_space_step = 0.0;
   std::mt19937 generator(17);
   std::uniform_real_distribution<> offset(-0.7, 0.7);
   int nearest = 0;
@@ -200,13 +200,13 @@ TEST(JacoInverse, MovesAwayFromALimitWhileThePoseStands) {
 
 // Each answer is the next seed, the pose stands.
 void drift(int calls, JointVector* q) {
-  IkOptions options;
+  IkParams options;
   options.limit_weight = 0.0;
   const Eigen::Isometry3d pose = forward(*q);
   for (int call = 0; call < calls; ++call) {
     const IkResult result = inverse(pose, *q, options);
     ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
-    ASSERT_LE((result.q - *q).norm(), options.posture_step + 1e-6) << "call " << call;
+    ASSERT_LE((result.q - *q).norm(), options.null_space_step + 1e-6) << "call " << call;
     *q = result.q;
   }
 }
@@ -315,19 +315,19 @@ TEST(JacoInverse, RefusesWhatIsNoPoseSeedOrOption) {
   EXPECT_THROW((void)inverse(pose, bad_seed), std::invalid_argument);
   EXPECT_THROW((void)inverse_at_arm_angle(pose, std::nan("")), std::invalid_argument);
 
-  IkOptions options;
+  IkParams options;
   options.weight[2] = 0.0;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkOptions();
+  options = IkParams();
   options.limit_margin = -0.1;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkOptions();
-  options.posture_margin = 0.0;
+  options = IkParams();
+  options.null_space_margin = 0.0;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkOptions();
-  options.posture_step = -1e-4;
+  options = IkParams();
+  options.null_space_step = -1e-4;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkOptions();
+  options = IkParams();
   options.limit_weight = -1.0;
   EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
 }

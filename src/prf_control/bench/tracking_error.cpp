@@ -100,19 +100,19 @@ Row measure(const std::string& name, const Sway& sway, const Options& options) {
     Setpoint setpoint;
     setpoint.kind = SetpointKind::kPose;
     setpoint.pose = target_at(sway, now + options.lead);
-    const std::int64_t stamp = static_cast<std::int64_t>(i) * 10000000;
+    const prf_core::Stamp stamp = i * std::chrono::milliseconds(10);
     controller.add_joints({stamp, arm.position, ""});
-    const Answer answer = controller.add_setpoint(stamp, setpoint).front();
-    row.within_limits = row.within_limits && keeps_limits(before, answer.command, options);
-    before = answer.command;
-    arm.run(answer.command);
+    const ControlResult result = controller.add_setpoint(stamp, setpoint).front();
+    row.within_limits = row.within_limits && keeps_limits(before, result.command, options);
+    before = result.command;
+    arm.run(result.command);
     if (i < ticks / 5) continue;
     const double later = now + ServoArm::kPeriod;
     const auto error = pose_error(forward(arm.position), target_at(sway, later).hand_in_base);
     errors.push_back(error.head<3>().norm());
     row.orientation = std::max(row.orientation, error.tail<3>().norm());
     hand.add(forward(arm.position).translation().y() - middle, frequency * later);
-    row.limited += answer.code == ControlCode::kFollowing ? 0 : 1;
+    row.limited += result.code == ControlCode::kFollowing ? 0 : 1;
   }
   std::sort(errors.begin(), errors.end());
   const double count = static_cast<double>(errors.size());

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <sstream>
-#include <stdexcept>
 
 #include "prf_control/nearest_pose.hpp"
 
 namespace prf_control {
 namespace {
+
+// [s] 1000 ticks at 100 Hz, which is what the joiner keeps.
+constexpr double kLongestWait = 10.0;
 
 ControlCode code_of(const FollowerStep& step) {
   if (step.goal == GoalKind::kNearest) return ControlCode::kUnreachable;
@@ -21,27 +24,29 @@ ControlCode code_of(const FollowerStep& step) {
   return slowed ? ControlCode::kLimited : ControlCode::kFollowing;
 }
 
-// Joints without end may be reported in another turn than they are commanded in.
-double tracking_error(double measured, double commanded, bool endless) {
+const ArmControllerParams& validated(const ArmControllerParams& params) {
+  params.validate();
+  return params;
+}
+
+// Continuous joints may be reported in another turn than they are commanded in.
+double tracking_error(double measured, double commanded, bool continuous) {
   const double error = measured - commanded;
-  return std::abs(endless ? std::remainder(error, 2.0 * M_PI) : error);
+  return std::abs(continuous ? std::remainder(error, 2.0 * M_PI) : error);
 }
 
 }  // namespace
 
 void ArmControllerParams::validate() const {
   follower.validate();
-  if (!(std::isfinite(max_tracking_error) && max_tracking_error > 0.0 &&
-        max_tracking_error <= M_PI)) {
-    throw std::invalid_argument("max_tracking_error = " + std::to_string(max_tracking_error) +
-                                " rad, must be > 0 and <= pi");
-  }
+  prf_core::require_positive_up_to("max_tracking_error", max_tracking_error, M_PI, "rad");
+  prf_core::require_positive_up_to("max_wait", max_wait, kLongestWait, "s");
 }
 
 ArmController::ArmController(const ArmControllerParams& params)
-    : params_(params), joiner_(params.max_wait), follower_(params.follower) {
-  params_.validate();
-}
+    : params_(validated(params)),
+      joiner_(prf_core::from_seconds(params_.max_wait)),
+      follower_(params_.follower) {}
 
 void ArmController::tune(double velocity_scale, double acceleration) {
   FollowerParams tuned = params_.follower;
@@ -51,60 +56,61 @@ void ArmController::tune(double velocity_scale, double acceleration) {
   params_.follower = tuned;
 }
 
-std::vector<Answer> ArmController::add_joints(const JointSample& joints) {
+std::vector<ControlResult> ArmController::add_joints(const JointSample& joints) {
   joiner_.add_joints(joints);
-  return decided();
+  return process_joined_ticks();
 }
 
-std::vector<Answer> ArmController::add_setpoint(std::int64_t stamp_ns, const Setpoint& setpoint) {
-  joiner_.add_setpoint(stamp_ns, setpoint);
-  return decided();
+std::vector<ControlResult> ArmController::add_setpoint(prf_core::Stamp stamp,
+                                                       const Setpoint& setpoint) {
+  joiner_.add_setpoint(stamp, setpoint);
+  return process_joined_ticks();
 }
 
-std::vector<Answer> ArmController::decided() {
-  std::vector<Answer> answers;
+std::vector<ControlResult> ArmController::process_joined_ticks() {
+  std::vector<ControlResult> results;
   while (const auto tick = joiner_.next()) {
-    if (const auto one = answer(*tick)) answers.push_back(*one);
+    if (const auto result = process(*tick)) results.push_back(*result);
   }
-  return answers;
+  return results;
 }
 
-std::optional<Answer> ArmController::answer(const JoinedTick& tick) {
+std::optional<ControlResult> ArmController::process(const TickJoiner::Joined& tick) {
   ++counts_.ticks;
   if (tick.new_run) {
     follower_.reset();
-    last_stamp_ns_.reset();
+    last_stamp_.reset();
   }
-  if (!tick.joints.position) ++counts_.faulty_joints;
-  if (!tick.joints.position && !follower_.started()) return std::nullopt;
+  if (!tick.primary.position) ++counts_.faulty_joints;
+  if (!tick.primary.position && !follower_.started()) return std::nullopt;
 
-  Answer answer;
-  answer.stamp_ns = tick.joints.stamp_ns;
+  ControlResult result;
+  result.stamp = tick.primary.stamp;
   const double dt =
-      last_stamp_ns_ ? 1e-9 * static_cast<double>(tick.joints.stamp_ns - *last_stamp_ns_) : 0.0;
-  last_stamp_ns_ = tick.joints.stamp_ns;
+      last_stamp_ ? 1e-9 * static_cast<double>((tick.primary.stamp - *last_stamp_).count()) : 0.0;
+  last_stamp_ = tick.primary.stamp;
 
   const std::string reason = restart_reason(tick, dt);
   if (reason.empty()) {
-    serve(tick, std::min(dt, params_.max_wait), answer);
+    follow_or_hold(tick, std::min(dt, params_.max_wait), result);
   } else {
-    restart(*tick.joints.position, reason, answer);
+    restart(*tick.primary.position, reason, result);
   }
-  answer.command = follower_.state();
-  return answer;
+  result.command = follower_.state();
+  return result;
 }
 
-std::string ArmController::restart_reason(const JoinedTick& tick, double dt) const {
-  if (!tick.joints.position) return "";
+std::string ArmController::restart_reason(const TickJoiner::Joined& tick, double dt) const {
+  if (!tick.primary.position) return "";
   if (!follower_.started()) return "first joint positions of the run";
   std::ostringstream text;
   if (dt > params_.max_wait) {
-    text << "joint_states leapt by " << dt << " s, bound " << params_.max_wait << " s";
+    text << "joint_states jumped forward by " << dt << " s, bound " << params_.max_wait << " s";
     return text.str();
   }
   const auto& limits = jaco_kinematics::jaco_joint_limits();
   for (int i = 0; i < 7; ++i) {
-    const double error = tracking_error((*tick.joints.position)[i], follower_.state().position[i],
+    const double error = tracking_error((*tick.primary.position)[i], follower_.state().position[i],
                                         std::isinf(limits.upper[i]));
     if (error <= params_.max_tracking_error) continue;
     text << name(i) << " is " << error << " rad from its command, bound "
@@ -115,45 +121,46 @@ std::string ArmController::restart_reason(const JoinedTick& tick, double dt) con
 }
 
 void ArmController::restart(const JointVector& measured, const std::string& reason,
-                            Answer& answer) {
+                            ControlResult& result) {
   ++counts_.restarts;
   follower_.start(measured);
-  answer.restarted = true;
-  answer.reason = "starts from the measured joints: " + reason;
+  result.restarted = true;
+  result.reason = "starts from the measured joints: " + reason;
 }
 
-void ArmController::serve(const JoinedTick& tick, double dt, Answer& answer) {
+void ArmController::follow_or_hold(const TickJoiner::Joined& tick, double dt,
+                                   ControlResult& result) {
   Eigen::Isometry3d wanted;
-  if (tick.joints.position && tick.setpoint && tick.setpoint->kind == SetpointKind::kPose) {
-    follow(tick.setpoint->pose, dt, answer);
-    wanted = tick.setpoint->pose.hand_in_base;
+  if (tick.primary.position && tick.secondary && tick.secondary->kind == SetpointKind::kPose) {
+    follow(tick.secondary->pose, dt, result);
+    wanted = tick.secondary->pose.hand_in_base;
   } else {
     follower_.hold(dt);
     wanted = jaco_kinematics::forward(follower_.state().position);
-    if (!tick.joints.position) {
-      answer.reason = tick.joints.fault;
-    } else if (!tick.setpoint) {
-      answer.code = ControlCode::kStaleSetpoint;
-      answer.reason = "no set-point for this tick";
-    } else if (tick.setpoint->kind == SetpointKind::kInvalid) {
+    if (!tick.primary.position) {
+      result.reason = tick.primary.fault;
+    } else if (!tick.secondary) {
+      result.code = ControlCode::kStaleSetpoint;
+      result.reason = "no set-point for this tick";
+    } else if (tick.secondary->kind == SetpointKind::kInvalid) {
       ++counts_.invalid_setpoints;
-      answer.code = ControlCode::kInvalidSetpoint;
-      answer.reason = tick.setpoint->refusal;
+      result.code = ControlCode::kInvalidSetpoint;
+      result.reason = tick.secondary->refusal;
     }
   }
-  const JointVector hand = tick.joints.position.value_or(follower_.state().position);
+  const JointVector hand = tick.primary.position.value_or(follower_.state().position);
   const auto error = pose_error(jaco_kinematics::forward(hand), wanted);
-  answer.position_error = error.head<3>().norm();
-  answer.orientation_error = error.tail<3>().norm();
+  result.position_error = error.head<3>().norm();
+  result.orientation_error = error.tail<3>().norm();
 }
 
-void ArmController::follow(const PoseSetpoint& setpoint, double dt, Answer& answer) {
+void ArmController::follow(const PoseSetpoint& setpoint, double dt, ControlResult& result) {
   const FollowerStep step = follower_.follow(setpoint, dt);
   if (step.goal == GoalKind::kJumpRefused) ++counts_.refused_jumps;
   if (step.goal == GoalKind::kChangesBranch) ++counts_.branch_changing;
-  answer.code = code_of(step);
-  answer.deviation = step.position_deviation;
-  if (answer.code != ControlCode::kFollowing) answer.reason = describe(step);
+  result.code = code_of(step);
+  result.deviation = step.position_deviation;
+  if (result.code != ControlCode::kFollowing) result.reason = describe(step);
 }
 
 std::string ArmController::describe(const FollowerStep& step) const {

@@ -4,16 +4,17 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
+#include <prf_core/se3.hpp>
 #include <stdexcept>
-#include <string>
 
-#include "prf_control/hand_velocity.hpp"
 #include "prf_control/nearest_pose.hpp"
+#include "prf_control/resolved_rate.hpp"
 
 namespace prf_control {
 namespace {
 
-using jaco_kinematics::IkOptions;
+using jaco_kinematics::IkParams;
 using jaco_kinematics::IkResult;
 using jaco_kinematics::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
@@ -24,14 +25,7 @@ constexpr double kArrived = 0.02;  // [rad] of every joint: the change of branch
 // acceleration of the hand, so that the joints can brake in time.
 constexpr double kCatchUpRate = 12.0;         // [1/s]
 constexpr double kCatchUpAcceleration = 1.0;  // [m/s^2]
-constexpr double kPostureRate = 2.0;          // [1/s] of the joints toward those of the goal
-
-void check(const char* name, double value, double bound, const char* unit) {
-  if (!(std::isfinite(value) && value > 0.0 && value <= bound)) {
-    throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + unit +
-                                ", must be > 0 and <= " + std::to_string(bound));
-  }
-}
+constexpr double kNullSpaceRate = 2.0;        // [1/s] of the joints toward those of the goal
 
 MotionLimits limits_of(const FollowerParams& params) {
   const auto& joints = jaco_kinematics::jaco_joint_limits();
@@ -42,13 +36,10 @@ MotionLimits limits_of(const FollowerParams& params) {
 }
 
 Eigen::Isometry3d moved_back(const PoseSetpoint& setpoint, double dt) {
-  const Eigen::Vector3d turn = -setpoint.angular_velocity * dt;
-  const double angle = turn.norm();
   Eigen::Isometry3d pose = setpoint.hand_in_base;
   pose.translation() -= setpoint.linear_velocity * dt;
-  if (angle > 0.0) {
-    pose.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * pose.linear();
-  }
+  pose.linear() =
+      prf_core::exp_so3(-setpoint.angular_velocity * dt).toRotationMatrix() * pose.linear();
   return pose;
 }
 
@@ -62,14 +53,15 @@ struct SetpointFollower::Goal {
 };
 
 void FollowerParams::validate() const {
-  check("velocity_scale", velocity_scale, 1.0, "");
-  check("acceleration", acceleration, 100.0, " rad/s^2");
-  check("max_joint_step", max_joint_step, M_PI, " rad");
-  check("far_position", far_position, 1.0, " m");
-  check("far_orientation", far_orientation, M_PI, " rad");
-  check("damping", damping, 1.0, "");
-  check("orientation_weight", orientation_weight, 10.0, " m/rad");
-  check("branch_patience", branch_patience, 1e6, " s");
+  using prf_core::require_positive_up_to;
+  require_positive_up_to("velocity_scale", velocity_scale, 1.0);
+  require_positive_up_to("acceleration", acceleration, 100.0, "rad/s^2");
+  require_positive_up_to("max_joint_step", max_joint_step, M_PI, "rad");
+  require_positive_up_to("far_position", far_position, 1.0, "m");
+  require_positive_up_to("far_orientation", far_orientation, M_PI, "rad");
+  require_positive_up_to("damping", damping, 1.0);
+  require_positive_up_to("orientation_weight", orientation_weight, 10.0, "m/rad");
+  require_positive_up_to("branch_patience", branch_patience, 1e6, "s");
 }
 
 SetpointFollower::SetpointFollower(const FollowerParams& params) { tune(params); }
@@ -111,7 +103,7 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
   step.motion = step_toward(state(), goal.motion, dt, limits);
   transfers_ = transfers_ && step.motion.limit != Limit::kNone;
   if (goal.kind == GoalKind::kExact && !transfers_ && step.motion.limit != Limit::kNone) {
-    step.motion = hand_step(setpoint, goal.motion, dt);
+    step.motion = resolved_rate_step(setpoint, goal.motion, dt);
   }
   const ErrorVector deviation =
       pose_error(jaco_kinematics::forward(step.motion.state.position), setpoint.hand_in_base);
@@ -132,8 +124,8 @@ FollowerStep SetpointFollower::hold(double dt) {
   return step;
 }
 
-LimitedStep SetpointFollower::hand_step(const PoseSetpoint& setpoint, const MotionState& goal,
-                                        double dt) const {
+LimitedStep SetpointFollower::resolved_rate_step(const PoseSetpoint& setpoint,
+                                                 const MotionState& goal, double dt) const {
   const JointVector& q = state().position;
   const ErrorVector error = pose_error(jaco_kinematics::forward(q), moved_back(setpoint, dt));
   ErrorVector twist;
@@ -141,21 +133,21 @@ LimitedStep SetpointFollower::hand_step(const PoseSetpoint& setpoint, const Moti
   const double size =
       std::hypot(error.head<3>().norm(), params_.orientation_weight * error.tail<3>().norm());
   const double rate = std::min(kCatchUpRate, std::sqrt(2.0 * kCatchUpAcceleration / size));
-  const JointVector posture_velocity =
-      goal.velocity + kPostureRate * (goal.position - goal.velocity * dt - q);
+  const JointVector null_space_velocity =
+      goal.velocity + kNullSpaceRate * (goal.position - goal.velocity * dt - q);
   const JointVector velocity =
-      hand_velocity({jaco_kinematics::jacobian(q), twist + rate * error,
-                     posture_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
+      resolved_rate({jaco_kinematics::jacobian(q), twist + rate * error,
+                     null_space_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
                      params_.orientation_weight},
                     allowed_velocities(state(), dt, limits_));
   LimitedStep step{moved(state(), velocity, dt, limits_), Limit::kAcceleration, -1, 0.0, 0.0};
-  const JointVector asked = posture_velocity.cwiseAbs().cwiseQuotient(limits_.velocity);
+  const JointVector asked = null_space_velocity.cwiseAbs().cwiseQuotient(limits_.velocity);
   for (int i = 0; i < velocity.size(); ++i) {
     const bool at_limit = std::abs(velocity[i]) >= limits_.velocity[i];
     if (at_limit && (step.joint < 0 || asked[i] > asked[step.joint])) {
       step.limit = Limit::kVelocity;
       step.joint = i;
-      step.asked = posture_velocity[i];
+      step.asked = null_space_velocity[i];
       step.bound = limits_.velocity[i];
     }
   }
@@ -172,7 +164,7 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   };
 
   // An arm that lags behind its goal is better served by the solution nearest to where it is.
-  const IkOptions options = posture_options(dt);
+  const IkParams options = ik_params(dt);
   IkResult solution = jaco_kinematics::inverse(pose, state().position, options);
   if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
     solution = jaco_kinematics::inverse(pose, reference, options);
@@ -198,12 +190,12 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
 }
 
 // The posture improves while the command is on its goal, not on the way there.
-IkOptions SetpointFollower::posture_options(double dt) const {
+IkParams SetpointFollower::ik_params(double dt) const {
   constexpr double kOnGoal = 1e-6;  // [rad]
   const bool on_goal = goal_ && (state().position - *goal_).cwiseAbs().maxCoeff() < kOnGoal;
-  IkOptions options;
-  options.posture_step =
-      on_goal ? std::min(kPostureSpeed * dt, 0.8 * params_.acceleration * dt * dt) : 0.0;
+  IkParams options;
+  options.null_space_step =
+      on_goal ? std::min(kNullSpaceSpeed * dt, 0.8 * params_.acceleration * dt * dt) : 0.0;
   return options;
 }
 
@@ -213,9 +205,9 @@ JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const 
   if (setpoint.linear_velocity.isZero(0.0) && setpoint.angular_velocity.isZero(0.0)) {
     return JointVector::Zero();
   }
-  IkOptions nearest;
+  IkParams nearest;
   nearest.limit_weight = 0.0;
-  nearest.posture_step = 0.0;
+  nearest.null_space_step = 0.0;
   const IkResult before = jaco_kinematics::inverse(moved_back(setpoint, dt), goal, nearest);
   const JointVector step = goal - before.q;
   const bool continuous =

@@ -14,7 +14,7 @@ namespace {
 
 using jaco_kinematics::forward;
 
-constexpr std::int64_t kTick = 10'000'000;
+constexpr prf_core::Duration kTick = std::chrono::milliseconds(10);
 constexpr double kDt = 0.01;
 
 ArmControllerParams params() {
@@ -49,24 +49,24 @@ Setpoint beside_home(double offset) {
   return pose_setpoint(pose);
 }
 
-// The answer to one tick and its set-point.
-Answer ask(ArmController& controller, const JointSample& joints, const Setpoint& setpoint) {
-  auto answers = controller.add_joints(joints);
-  for (const Answer& more : controller.add_setpoint(joints.stamp_ns, setpoint)) {
-    answers.push_back(more);
+// The result of one tick and its set-point.
+ControlResult ask(ArmController& controller, const JointSample& joints, const Setpoint& setpoint) {
+  auto results = controller.add_joints(joints);
+  for (const ControlResult& more : controller.add_setpoint(joints.stamp, setpoint)) {
+    results.push_back(more);
   }
-  EXPECT_EQ(answers.size(), 1u);
-  return answers.empty() ? Answer() : answers.front();
+  EXPECT_EQ(results.size(), 1u);
+  return results.empty() ? ControlResult() : results.front();
 }
 
 TEST(ArmController, StartsFromTheMeasuredJointsAtRest) {
   ArmController controller(params());
-  const Answer answer = ask(controller, joints_at(1), beside_home(0.3));
-  EXPECT_EQ(answer.stamp_ns, kTick);
-  EXPECT_TRUE(answer.restarted);
-  EXPECT_EQ(answer.code, ControlCode::kHolding);
-  EXPECT_EQ(answer.command.position, home());
-  EXPECT_EQ(answer.command.velocity, JointVector::Zero());
+  const ControlResult result = ask(controller, joints_at(1), beside_home(0.3));
+  EXPECT_EQ(result.stamp, kTick);
+  EXPECT_TRUE(result.restarted);
+  EXPECT_EQ(result.code, ControlCode::kHolding);
+  EXPECT_EQ(result.command.position, home());
+  EXPECT_EQ(result.command.velocity, JointVector::Zero());
 }
 
 TEST(ArmController, SaysNothingBeforeItKnowsTheJoints) {
@@ -79,36 +79,36 @@ TEST(ArmController, SaysNothingBeforeItKnowsTheJoints) {
 TEST(ArmController, FollowsAndReportsErrorAndDeviation) {
   ArmController controller(params());
   (void)ask(controller, joints_at(0), hold_setpoint());
-  const Answer answer = ask(controller, joints_at(1), beside_home(0.05));
-  EXPECT_EQ(answer.code, ControlCode::kFollowing);
-  EXPECT_TRUE(answer.reason.empty());
-  EXPECT_NEAR(answer.position_error, 0.05, 1e-12);
-  EXPECT_NEAR(answer.orientation_error, 0.0, 1e-12);
-  EXPECT_LT(answer.deviation, 0.05);
-  EXPECT_GT(answer.deviation, 0.049);
+  const ControlResult result = ask(controller, joints_at(1), beside_home(0.05));
+  EXPECT_EQ(result.code, ControlCode::kFollowing);
+  EXPECT_TRUE(result.reason.empty());
+  EXPECT_NEAR(result.position_error, 0.05, 1e-12);
+  EXPECT_NEAR(result.orientation_error, 0.0, 1e-12);
+  EXPECT_LT(result.deviation, 0.05);
+  EXPECT_GT(result.deviation, 0.049);
 }
 
 TEST(ArmController, NamesTheJointThatSlowsItDown) {
   ArmController controller(params());
   (void)ask(controller, joints_at(0), hold_setpoint());
-  Answer answer;
+  ControlResult result;
   JointVector measured = home();
   for (int i = 1; i < 40; ++i) {
-    answer = ask(controller, joints_at(i, measured), beside_home(-0.4));
-    measured = answer.command.position;
+    result = ask(controller, joints_at(i, measured), beside_home(-0.4));
+    measured = result.command.position;
   }
-  EXPECT_EQ(answer.code, ControlCode::kLimited);
-  EXPECT_NE(answer.reason.find("joint_"), std::string::npos);
-  EXPECT_NE(answer.reason.find("bound 0.79587 rad/s"), std::string::npos) << answer.reason;
+  EXPECT_EQ(result.code, ControlCode::kLimited);
+  EXPECT_NE(result.reason.find("joint_"), std::string::npos);
+  EXPECT_NE(result.reason.find("bound 0.79587 rad/s"), std::string::npos) << result.reason;
 }
 
 TEST(ArmController, ReportsASetpointOutOfReach) {
   ArmController controller(params());
   (void)ask(controller, joints_at(0), hold_setpoint());
-  const Answer answer = ask(controller, joints_at(1), beside_home(2.0));
-  EXPECT_EQ(answer.code, ControlCode::kUnreachable);
-  EXPECT_FALSE(answer.reason.empty());
-  EXPECT_NEAR(answer.deviation, 2.0, 0.01);
+  const ControlResult result = ask(controller, joints_at(1), beside_home(2.0));
+  EXPECT_EQ(result.code, ControlCode::kUnreachable);
+  EXPECT_FALSE(result.reason.empty());
+  EXPECT_NEAR(result.deviation, 2.0, 0.01);
 }
 
 TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
@@ -116,12 +116,12 @@ TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
   (void)ask(controller, joints_at(0), hold_setpoint());
   EXPECT_EQ(ask(controller, joints_at(1), hold_setpoint()).code, ControlCode::kHolding);
 
-  const Answer refused = ask(controller, joints_at(2), refused_setpoint("wrong frame"));
+  const ControlResult refused = ask(controller, joints_at(2), refused_setpoint("wrong frame"));
   EXPECT_EQ(refused.code, ControlCode::kInvalidSetpoint);
   EXPECT_EQ(refused.reason, "wrong frame");
   EXPECT_EQ(refused.command.position, home());
 
-  const Answer faulty = ask(controller, faulty_joints_at(3), beside_home(0.05));
+  const ControlResult faulty = ask(controller, faulty_joints_at(3), beside_home(0.05));
   EXPECT_EQ(faulty.code, ControlCode::kHolding);
   EXPECT_EQ(faulty.reason, "joint_3 bad");
   EXPECT_EQ(faulty.command.position, home());
@@ -129,12 +129,12 @@ TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
 
 TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
   ArmController controller(params());
-  std::vector<Answer> answers;
+  std::vector<ControlResult> results;
   JointVector measured = home();
-  const auto add = [&](const std::vector<Answer>& more) {
-    for (const Answer& answer : more) {
-      answers.push_back(answer);
-      measured = answer.command.position;
+  const auto add = [&](const std::vector<ControlResult>& more) {
+    for (const ControlResult& result : more) {
+      results.push_back(result);
+      measured = result.command.position;
     }
   };
   for (int i = 0; i < 300; ++i) {
@@ -142,17 +142,17 @@ TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
     const bool silent = i >= 100 && i < 200;
     if (!silent) add(controller.add_setpoint(i * kTick, beside_home(0.1)));
   }
-  ASSERT_EQ(answers.size(), 300u);
-  for (std::size_t i = 1; i < answers.size(); ++i) {
-    EXPECT_EQ(answers[i].stamp_ns, static_cast<std::int64_t>(i) * kTick);
-    const bool stale = answers[i].code == ControlCode::kStaleSetpoint;
+  ASSERT_EQ(results.size(), 300u);
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    EXPECT_EQ(results[i].stamp, static_cast<int>(i) * kTick);
+    const bool stale = results[i].code == ControlCode::kStaleSetpoint;
     EXPECT_EQ(stale, i >= 100 && i <= 200) << i;  // tick 200 came before its set-point
-    const JointVector step = answers[i].command.position - answers[i - 1].command.position;
+    const JointVector step = results[i].command.position - results[i - 1].command.position;
     EXPECT_LE(step.cwiseAbs().maxCoeff(), 0.0085);
     const bool at_rest = step == JointVector::Zero();
     EXPECT_TRUE(at_rest || i < 130 || i >= 200) << i;
   }
-  EXPECT_LE(answers.back().deviation, 1e-6);
+  EXPECT_LE(results.back().deviation, 1e-6);
 }
 
 TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
@@ -160,21 +160,21 @@ TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
   (void)ask(controller, joints_at(0), hold_setpoint());
   JointVector moved = home();
   moved[3] += 0.25;
-  const Answer answer = ask(controller, joints_at(1, moved), beside_home(0.0));
-  EXPECT_TRUE(answer.restarted);
-  EXPECT_NE(answer.reason.find("joint_4"), std::string::npos);
-  EXPECT_EQ(answer.command.position, moved);
+  const ControlResult result = ask(controller, joints_at(1, moved), beside_home(0.0));
+  EXPECT_TRUE(result.restarted);
+  EXPECT_NE(result.reason.find("joint_4"), std::string::npos);
+  EXPECT_EQ(result.command.position, moved);
 }
 
-TEST(ArmController, TakesAnEndlessJointInAnotherTurnAsTheSame) {
+TEST(ArmController, TakesAContinuousJointInAnotherTurnAsTheSame) {
   ArmController controller(params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   JointVector turned = home();
   turned[0] += 2.0 * M_PI;
   turned[6] -= 2.0 * M_PI;
-  const Answer answer = ask(controller, joints_at(1, turned), hold_setpoint());
-  EXPECT_FALSE(answer.restarted);
-  EXPECT_EQ(answer.command.position, home());
+  const ControlResult result = ask(controller, joints_at(1, turned), hold_setpoint());
+  EXPECT_FALSE(result.restarted);
+  EXPECT_EQ(result.command.position, home());
 }
 
 TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
@@ -182,7 +182,7 @@ TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
   (void)ask(controller, joints_at(100), hold_setpoint());
   EXPECT_FALSE(ask(controller, joints_at(101), beside_home(0.02)).restarted);
   EXPECT_TRUE(ask(controller, joints_at(500), beside_home(0.02)).restarted);
-  const Answer first = ask(controller, joints_at(3), beside_home(0.02));
+  const ControlResult first = ask(controller, joints_at(3), beside_home(0.02));
   EXPECT_TRUE(first.restarted);
   EXPECT_EQ(first.command.position, home());
   EXPECT_EQ(controller.counts().restarts, 3u);
@@ -190,12 +190,12 @@ TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
 }
 
 // A random run: far jumps, holds, refusals, faulty joints, missing set-points.
-std::vector<Answer> random_run(unsigned seed) {
+std::vector<ControlResult> random_run(unsigned seed) {
   std::mt19937 data(7);
   std::mt19937 order(seed);
   std::uniform_real_distribution<double> offset(-0.4, 0.4);
   ArmController controller(params());
-  std::vector<Answer> answers;
+  std::vector<ControlResult> results;
   std::vector<std::pair<int, Setpoint>> setpoints;
   std::vector<JointSample> samples;
   Setpoint current = beside_home(0.0);
@@ -217,19 +217,19 @@ std::vector<Answer> random_run(unsigned seed) {
     const auto more = tick_next ? controller.add_joints(samples[next_sample++])
                                 : controller.add_setpoint(setpoint_time * kTick,
                                                           setpoints[next_setpoint++].second);
-    answers.insert(answers.end(), more.begin(), more.end());
+    results.insert(results.end(), more.begin(), more.end());
   }
-  return answers;
+  return results;
 }
 
-TEST(ArmController, AnswersTheSameBitsWhateverTheInterleaving) {
+TEST(ArmController, GivesTheSameBitsWhateverTheInterleaving) {
   const auto first = random_run(0);
   ASSERT_EQ(first.size(), 400u);
   for (unsigned seed = 1; seed < 20; ++seed) {
     const auto other = random_run(seed);
     ASSERT_EQ(other.size(), first.size());
     for (std::size_t i = 0; i < first.size(); ++i) {
-      ASSERT_EQ(other[i].stamp_ns, first[i].stamp_ns);
+      ASSERT_EQ(other[i].stamp, first[i].stamp);
       ASSERT_EQ(other[i].code, first[i].code) << i;
       ASSERT_EQ(other[i].reason, first[i].reason);
       ASSERT_EQ(other[i].command.position, first[i].command.position) << i;
@@ -270,9 +270,9 @@ double sway_error(double amplitude, double frequency, bool feed_forward) {
     if (feed_forward) {
       setpoint.pose.linear_velocity.y() = amplitude * frequency * std::cos(phase);
     }
-    const Answer answer = ask(controller, joints_at(i, servo.position), setpoint);
-    if (i > ticks / 5) worst = std::max(worst, answer.position_error);
-    servo.run(answer.command);
+    const ControlResult result = ask(controller, joints_at(i, servo.position), setpoint);
+    if (i > ticks / 5) worst = std::max(worst, result.position_error);
+    servo.run(result.command);
   }
   return worst;
 }
@@ -299,9 +299,11 @@ TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
   ArmControllerParams bad = params();
   bad.max_tracking_error = std::nan("");
   EXPECT_NE(refusal(bad).find("max_tracking_error"), std::string::npos);
-  bad = params();
-  bad.max_wait = -0.1;
-  EXPECT_NE(refusal(bad).find("max_wait"), std::string::npos);
+  for (const double wait : {0.0, -1.0, std::nan(""), 11.0}) {
+    bad = params();
+    bad.max_wait = wait;
+    EXPECT_NE(refusal(bad).find("max_wait"), std::string::npos) << wait;
+  }
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(SetpointFollower, GoesToAFarSetpointStraightInJointSpaceAndStops) {
   const Twist twist =
       jaco_kinematics::jacobian(step.motion.state.position) * step.motion.state.velocity;
   EXPECT_LE(twist.norm(), 1e-3);
-  EXPECT_LE(step.motion.state.velocity.norm(), kPostureSpeed + 1e-6);
+  EXPECT_LE(step.motion.state.velocity.norm(), kNullSpaceSpeed + 1e-6);
   const JointVector way = path.back() - path.front();
   for (const JointVector& q : path) {
     const double share = (q - path.front()).dot(way) / way.squaredNorm();
@@ -236,7 +236,7 @@ TEST(SetpointFollower, DriftsToABetterPostureWhileTheHandStands) {
       ASSERT_EQ(step.goal, GoalKind::kExact);
       ASSERT_LT(step.position_deviation, 1e-9) << "tick " << tick;
       ASSERT_LT(step.orientation_deviation, 1e-9) << "tick " << tick;
-      ASSERT_LE(step.motion.state.velocity.norm(), kPostureSpeed + 1e-6);
+      ASSERT_LE(step.motion.state.velocity.norm(), kNullSpaceSpeed + 1e-6);
     }
     EXPECT_GT(follower.state().position[joint], M_PI + 0.27) << "joint " << joint + 1;
   }

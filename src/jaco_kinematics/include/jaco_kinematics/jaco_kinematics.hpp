@@ -51,7 +51,7 @@ std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, doub
 
 enum class IkStatus { kSolved, kOutOfReach, kNoSolutionWithinLimits };
 
-struct IkOptions {
+struct IkParams {
   // Distance to the seed is sum_i weight_i (q_i - seed_i)^2; the default measures time of travel,
   // relative to the slowest joints (36 deg/s against 48 deg/s).
   JointVector weight = (JointVector() << 1.0, 1.0, 1.0, 1.0, 0.5625, 0.5625, 0.5625).finished();
@@ -59,11 +59,11 @@ struct IkOptions {
   // limit.
   double limit_margin = 0.3;    // [rad], > 0
   double limit_weight = 0.001;  // [rad^2], >= 0; small: continuity comes first
-  // Beside that, at most posture_step of self-motion from the nearest solution while joint 2 or 6
-  // is within posture_margin of a limit or of its singularity at pi, away from there: with the
+  // Beside that, at most null_space_step of self-motion from the nearest solution while joint 2 or
+  // 6 is within null_space_margin of a limit or of its singularity at pi, away from there: with the
   // answer as the next seed, a steady drift.
-  double posture_margin = 0.5;   // [rad], > 0
-  double posture_step = 0.0004;  // [rad] in the norm of q, >= 0; 0.04 rad/s at 100 Hz
+  double null_space_margin = 0.5;   // [rad], > 0
+  double null_space_step = 0.0004;  // [rad] in the norm of q, >= 0; 0.04 rad/s at 100 Hz
 
   void validate() const;
 };
@@ -79,7 +79,7 @@ struct IkResult {
 // The solution within limits that is nearest to the seed (continuous joints in the seed's turn)
 // and, as a smaller part of the cost, away from limits. kSolved means errors below 1e-9.
 [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
-                               const IkOptions& options = IkOptions());
+                               const IkParams& options = IkParams());
 
 // The first solution within limits that is met, for whoever has no seed: in the middle of a
 // feasible arc if it is there. The fastest; not continuous from pose to pose.

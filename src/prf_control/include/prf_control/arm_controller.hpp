@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arm controller without ROS: joint samples and set-points in, in any interleaving; one answer
-// per tick out, in order, a function of the data alone.
+// The arm controller without ROS: measured joints and set-points in, joint commands out.
+//
+// Each set of measured joints is a control tick. It is joined with the set-point of the same stamp
+// (tick_joiner.hpp), and the follower (setpoint_follower.hpp) computes the command of that tick.
+// The results come in the order of the ticks and depend only on the data, not on how the two
+// streams interleave.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +18,10 @@ namespace prf_control {
 
 struct ArmControllerParams {
   FollowerParams follower;
-  double
-      max_tracking_error;    // [rad], > 0; measured farther from the command: start anew from there
-  double max_wait;           // [s], > 0; of data time, for a set-point and between two ticks
-  std::string joint_prefix;  // joints are called <prefix>1 .. <prefix>7 in the reasons
+  double max_tracking_error;  // [rad], > 0; a measured joint farther than this from its command
+                              // makes the command start again from the measured joints
+  double max_wait;            // [s], > 0; data time: for a set-point, and between two ticks
+  std::string joint_prefix;   // in the reasons, joints are called <prefix>1 .. <prefix>7
 
   void validate() const;
 };
@@ -31,8 +35,8 @@ enum class ControlCode : std::uint8_t {  // as prf_msgs/ControlStatus
   kInvalidSetpoint = 5
 };
 
-struct Answer {
-  std::int64_t stamp_ns = 0;
+struct ControlResult {
+  prf_core::Stamp stamp{0};  // of the tick
   ControlCode code = ControlCode::kHolding;
   std::string reason;
   MotionState command;
@@ -53,32 +57,33 @@ struct ControllerCounts {
 
 class ArmController {
  public:
+  // Throws std::invalid_argument for parameters that validate() refuses.
   explicit ArmController(const ArmControllerParams& params);
 
-  // Another share of the velocity limits, and acceleration limit, from the next tick on.
+  // Another share of the velocity limits and another acceleration limit, from the next tick on.
   void tune(double velocity_scale, double acceleration);
 
-  std::vector<Answer> add_joints(const JointSample& joints);
-  std::vector<Answer> add_setpoint(std::int64_t stamp_ns, const Setpoint& setpoint);
+  std::vector<ControlResult> add_joints(const JointSample& joints);
+  std::vector<ControlResult> add_setpoint(prf_core::Stamp stamp, const Setpoint& setpoint);
 
   [[nodiscard]] const ControllerCounts& counts() const { return counts_; }
   [[nodiscard]] const JoinerCounts& joiner_counts() const { return joiner_.counts(); }
 
  private:
-  std::vector<Answer> decided();
+  std::vector<ControlResult> process_joined_ticks();
   // None while no finite joint positions have been seen.
-  std::optional<Answer> answer(const JoinedTick& tick);
-  std::string restart_reason(const JoinedTick& tick, double dt) const;
-  void restart(const JointVector& measured, const std::string& reason, Answer& answer);
-  void serve(const JoinedTick& tick, double dt, Answer& answer);
-  void follow(const PoseSetpoint& setpoint, double dt, Answer& answer);
+  std::optional<ControlResult> process(const TickJoiner::Joined& tick);
+  std::string restart_reason(const TickJoiner::Joined& tick, double dt) const;
+  void restart(const JointVector& measured, const std::string& reason, ControlResult& result);
+  void follow_or_hold(const TickJoiner::Joined& tick, double dt, ControlResult& result);
+  void follow(const PoseSetpoint& setpoint, double dt, ControlResult& result);
   [[nodiscard]] std::string describe(const FollowerStep& step) const;
   [[nodiscard]] std::string name(int joint) const;
 
   ArmControllerParams params_;
   TickJoiner joiner_;
   SetpointFollower follower_;
-  std::optional<std::int64_t> last_stamp_ns_;
+  std::optional<prf_core::Stamp> last_stamp_;
   ControllerCounts counts_;
 };
 

@@ -2,14 +2,14 @@
 // From a moving pose of the hand to joint positions and velocities, one control period at a time.
 //
 //   goal      q_g = inverse(T), the solution nearest to the joints as they are, drifting by
-//             kPostureSpeed at most away from limits and singularities;
+//             kNullSpaceSpeed at most away from limits and singularities;
 //             T out of reach: the nearest pose (nearest_pose.hpp);
 //             a jump of a joint by more than max_joint_step, though T moved little (a change of
 //             branch): refused, the goal takes a damped step along the Jacobian instead; refused
 //             for branch_patience without a break: made after all, at kBranchChangeSpeed
 //   velocity  dq_g = (q_g - inverse(T moved back by its twist)) / dt
 //   command   the step of joint_motion.hpp toward (q_g, dq_g); where a limit would shape it, the
-//             joints that are left keep the hand on its way (hand_velocity.hpp), but for a
+//             joints that are left keep the hand on its way (resolved_rate.hpp), but for a
 //             set-point far from the last one, to which all joints go together
 //
 // The follower's own last command is its state; it starts from measured joints, at rest. A
@@ -42,7 +42,7 @@ inline constexpr double kBranchChangeSpeed = 0.25;
 
 // Speed of the self-motion toward a better posture, norm of all joints; slower where the
 // acceleration limit asks for it, so that the drift can start and end within one period.
-inline constexpr double kPostureSpeed = 0.04;  // [rad/s]
+inline constexpr double kNullSpaceSpeed = 0.04;  // [rad/s]
 
 struct PoseSetpoint {
   Eigen::Isometry3d hand_in_base = Eigen::Isometry3d::Identity();
@@ -87,9 +87,10 @@ class SetpointFollower {
  private:
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
-  jaco_kinematics::IkOptions posture_options(double dt) const;
+  jaco_kinematics::IkParams ik_params(double dt) const;
   void forget_set_points();
-  LimitedStep hand_step(const PoseSetpoint& setpoint, const MotionState& goal, double dt) const;
+  LimitedStep resolved_rate_step(const PoseSetpoint& setpoint, const MotionState& goal,
+                                 double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
   JointVector damped_step(const Eigen::Isometry3d& hand_in_base, const JointVector& from,
                           double dt) const;

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins each tick (a joint_states message) with the set-point of the same stamp.
+// Joins each control tick (measured joints) with the set-point of the same stamp: the StreamJoiner
+// of prf_core with the ticks as primary stream, and counts of what was lost.
 //
-// The two topics interleave at random, each in its own order. A tick waits for its set-point:
-//   a set-point with this stamp has come                      -> joined
-//   a later one has come                                      -> none, it was never published
-//   a tick more than max_wait later has come                  -> none, and no more waiting
-//                                                                until a set-point comes again
-// so the answers do not depend on the interleaving as long as neither topic lags by max_wait.
-// Ticks that go back in time begin a new run; what was still waiting is dropped.
+// A second message of one stamp is dropped. Every step back of the ticks begins a new run.
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <jaco_kinematics/jaco_kinematics.hpp>
-#include <map>
 #include <optional>
+#include <prf_core/stream_joiner.hpp>
 #include <string>
 
 #include "prf_control/setpoint.hpp"
@@ -22,48 +16,34 @@
 namespace prf_control {
 
 struct JointSample {
-  std::int64_t stamp_ns = 0;
-  std::optional<JointVector> position;  // [rad], none when a value was not finite
-  std::string fault;                    // then: which
-};
-
-struct JoinedTick {
-  JointSample joints;
-  std::optional<Setpoint> setpoint;  // none: it did not come
-  bool new_run = false;              // the first of a run that began by going back in time
+  prf_core::Stamp stamp{0};
+  std::optional<jaco_kinematics::JointVector> position;  // [rad], none when one was not finite
+  std::string fault;                                     // then: which
 };
 
 struct JoinerCounts {
   std::uint64_t duplicate_ticks = 0;
   std::uint64_t new_runs = 0;
-  std::uint64_t late_setpoints = 0;     // came after their tick had been answered, or twice
-  std::uint64_t missing_setpoints = 0;  // ticks answered without
-  std::uint64_t silences = 0;           // times that waiting was given up
+  std::uint64_t late_setpoints = 0;     // came after their tick was decided, or twice
+  std::uint64_t missing_setpoints = 0;  // ticks without
+  std::uint64_t silences = 0;           // times that the set-points were given up
 };
 
 class TickJoiner {
  public:
-  explicit TickJoiner(double max_wait);  // [s], > 0
+  using Joined = prf_core::StreamJoiner<JointSample, Setpoint>::Joined;
+
+  explicit TickJoiner(prf_core::Duration max_wait);  // > 0, of data time
 
   void add_joints(const JointSample& joints);
-  void add_setpoint(std::int64_t stamp_ns, const Setpoint& setpoint);
-  // The next tick whose answer is decided, oldest first.
-  std::optional<JoinedTick> next();
+  void add_setpoint(prf_core::Stamp stamp, const Setpoint& setpoint);
+  // The oldest tick when its set-point has come or will not come any more.
+  [[nodiscard]] std::optional<Joined> next();
 
   [[nodiscard]] const JoinerCounts& counts() const { return counts_; }
 
  private:
-  void begin_new_run();
-  [[nodiscard]] bool waits(std::int64_t stamp_ns);
-
-  std::int64_t max_wait_ns_;
-  std::deque<JoinedTick> ticks_;
-  std::map<std::int64_t, Setpoint> setpoints_;
-  std::optional<std::int64_t> newest_tick_;
-  std::optional<std::int64_t> newest_setpoint_;
-  std::optional<std::int64_t> answered_;
-  bool silent_ = false;               // waiting was given up
-  bool setpoints_restarted_ = false;  // the set-points went back in time, the ticks not yet
+  prf_core::StreamJoiner<JointSample, Setpoint> joiner_;
   JoinerCounts counts_;
 };
 

@@ -38,4 +38,13 @@ inline void require_positive(const std::string& name, double value, const std::s
   require(value > 0.0, name, value, unit.empty() ? "> 0" : "> 0 " + unit);
 }
 
+// 0 excluded, `high` included.
+inline void require_positive_up_to(const std::string& name, double value, double high,
+                                   const std::string& unit = "") {
+  if (value > 0.0 && value <= high) return;
+  std::ostringstream bound;
+  bound << "> 0 and <= " << high << (unit.empty() ? "" : " ") << unit;
+  require(false, name, value, bound.str());
+}
+
 }  // namespace prf_core

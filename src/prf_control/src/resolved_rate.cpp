@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_control/hand_velocity.hpp"
+#include "prf_control/resolved_rate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +30,13 @@ JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const Veloci
 
 }  // namespace
 
-JointVector hand_velocity(const HandRequest& request, const VelocityRange& range) {
+JointVector resolved_rate(const ResolvedRateProblem& request, const VelocityRange& range) {
   Twist weight;
   weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(request.orientation_weight);
   const jaco_kinematics::Jacobian A = weight.asDiagonal() * request.jacobian;
-  const Matrix7 H = A.transpose() * A + kPostureWeight * Matrix7::Identity();
+  const Matrix7 H = A.transpose() * A + kNullSpaceWeight * Matrix7::Identity();
   const JointVector g = A.transpose() * weight.cwiseProduct(request.twist) +
-                        kPostureWeight * request.posture_velocity;
+                        kNullSpaceWeight * request.null_space_velocity;
   return bounded_minimum(H, g, range);
 }
 

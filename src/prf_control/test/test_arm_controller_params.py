@@ -16,15 +16,15 @@ NAN, INF = float('nan'), float('inf')
 GREATEST = {'velocity_scale': (1.0, '1'), 'acceleration': (100.0, '100'),
             'max_joint_step': (math.pi, '3.14'), 'far_position': (1.0, '1'),
             'far_orientation': (math.pi, '3.14'), 'damping': (1.0, '1'),
-            'orientation_weight': (10.0, '10'), 'branch_patience': (1e6, '1000000'),
-            'max_tracking_error': (math.pi, 'pi'), 'max_wait': (10.0, '10')}
+            'orientation_weight': (10.0, '10'), 'branch_patience': (1e6, '1e+06'),
+            'max_tracking_error': (math.pi, '3.14'), 'max_wait': (10.0, '10')}
 NAMES = ('joint_prefix', 'planning_frame', 'hand_frame')
 # Parameter, bad value, how the message writes the value, and the bound.
 CATALOGUE = (
-    [(name, value, '%f' % value, '> 0') for name in GREATEST for value in (0.0, -1.0, NAN, INF)] +
-    [(name, 1.1 * most, '%f' % (1.1 * most), '<= ' + text) for name, (most, text) in GREATEST.items()] +
+    [(name, value, '%g' % value, '> 0') for name in GREATEST for value in (0.0, -1.0, NAN, INF)] +
+    [(name, 1.1 * most, '%g' % (1.1 * most), '<= ' + text) for name, (most, text) in GREATEST.items()] +
     [(name, 'much', 'much', 'a number') for name in GREATEST] +
-    [(name, '', "''", 'not be empty') for name in NAMES] +
+    [(name, '', "''", 'must be not empty') for name in NAMES] +
     [(name, 7, '7', 'a string') for name in NAMES] +
     [('accelaration', 4.0, '', '')])
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_control/hand_velocity.hpp"
+#include "prf_control/resolved_rate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,33 +21,34 @@ JointVector random_joints(std::mt19937& random, double size) {
   return JointVector::NullaryExpr([&] { return uniform(random); });
 }
 
-// Of |W (J v - x)|^2 / 2 + kPostureWeight |v - v_p|^2 / 2.
-JointVector gradient(const HandRequest& request, const JointVector& v) {
+// Of |W (J v - x)|^2 / 2 + kNullSpaceWeight |v - v_p|^2 / 2.
+JointVector gradient(const ResolvedRateProblem& request, const JointVector& v) {
   Twist squared;
   squared << 1, 1, 1, kWeight * kWeight, kWeight * kWeight, kWeight * kWeight;
   return request.jacobian.transpose() * squared.cwiseProduct(request.jacobian * v - request.twist) +
-         kPostureWeight * (v - request.posture_velocity);
+         kNullSpaceWeight * (v - request.null_space_velocity);
 }
 
-TEST(HandVelocity, MovesHandAndPostureAsWantedWhereNothingBinds) {
+TEST(ResolvedRate, MovesHandAndPostureAsWantedWhereNothingBinds) {
   std::mt19937 random(3);
   for (int i = 0; i < 100; ++i) {
     const JointVector wanted = random_joints(random, 0.5);
     const auto J = jaco_kinematics::jacobian(home());
-    const JointVector v = hand_velocity({J, J * wanted, wanted, kWeight}, range_of(1.0));
+    const JointVector v = resolved_rate({J, J * wanted, wanted, kWeight}, range_of(1.0));
     EXPECT_LE((v - wanted).norm(), 1e-8);
   }
 }
 
-TEST(HandVelocity, IsTheMinimumWithinTheRange) {
+TEST(ResolvedRate, IsTheMinimumWithinTheRange) {
   std::mt19937 random(7);
   int at_bounds = 0;
   for (int i = 0; i < 300; ++i) {
-    const HandRequest request{jaco_kinematics::jacobian(home() + random_joints(random, 0.3)),
-                              Twist::Random(), random_joints(random, 1.0), kWeight};
+    const ResolvedRateProblem request{
+        jaco_kinematics::jacobian(home() + random_joints(random, 0.3)), Twist::Random(),
+        random_joints(random, 1.0), kWeight};
     const JointVector middle = random_joints(random, 0.3);
     const VelocityRange range{middle.array() - 0.2, middle.array() + 0.2};
-    const JointVector v = hand_velocity(request, range);
+    const JointVector v = resolved_rate(request, range);
     const JointVector slope = gradient(request, v);
     for (int joint = 0; joint < 7; ++joint) {
       ASSERT_GE(v[joint], range.lower[joint]);
@@ -62,13 +63,13 @@ TEST(HandVelocity, IsTheMinimumWithinTheRange) {
   EXPECT_GT(at_bounds, 300);
 }
 
-TEST(HandVelocity, LetsTheOtherJointsMakeUpForOneAtItsLimit) {
+TEST(ResolvedRate, LetsTheOtherJointsMakeUpForOneAtItsLimit) {
   const auto J = jaco_kinematics::jacobian(home());
   const JointVector wanted = (JointVector() << 1.0, 0.1, 0.2, 0.1, -0.2, 0.1, 0.1).finished();
   VelocityRange range = range_of(0.8);
   range.upper[0] = 0.5;
   const Twist twist = J * wanted;
-  const JointVector v = hand_velocity({J, twist, wanted, kWeight}, range);
+  const JointVector v = resolved_rate({J, twist, wanted, kWeight}, range);
   const double left_over = (J * v - twist).head<3>().norm();
   const double when_scaled = (0.5 * twist).head<3>().norm();
   EXPECT_LE(left_over, 0.2 * when_scaled);

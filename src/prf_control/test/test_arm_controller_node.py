@@ -200,9 +200,9 @@ class ArmControllerNode(unittest.TestCase):
         self.addCleanup(self.tune, **FULL)
         for numbers, reason in (
                 ({'acceleration': 1.0, 'velocity_scale': 1.5},
-                 'velocity_scale = 1.500000, must be > 0 and <= 1'),
+                 'velocity_scale = 1.5, must be > 0 and <= 1'),
                 ({'velocity_scale': 0.3, 'acceleration': -1.0},
-                 'acceleration = -1.000000 rad/s^2, must be > 0'),
+                 'acceleration = -1, must be > 0 and <= 100 rad/s^2'),
                 ({'velocity_scale': 0.3, 'acceleration': float('nan')}, 'acceleration is nan'),
                 ({'velocity_scale': 0.3, 'damping': 0.2}, 'damping cannot be changed')):
             with self.assertRaises(rospy.ServiceException) as refusal:

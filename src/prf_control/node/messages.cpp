@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <prf_ros/conversions.hpp>
+
+namespace prf_control {
+
+using prf_ros::to_core;
+
+std::optional<JointSample> to_sample(const sensor_msgs::JointState& message,
+                                     const std::vector<std::string>& joint_names) {
+  JointSample sample;
+  sample.stamp = to_core(message.header.stamp);
+  JointVector position;
+  for (std::size_t i = 0; i < joint_names.size(); ++i) {
+    const auto found = std::find(message.name.begin(), message.name.end(), joint_names[i]);
+    const auto index = static_cast<std::size_t>(found - message.name.begin());
+    if (index >= message.name.size() || index >= message.position.size()) return std::nullopt;
+    position[static_cast<Eigen::Index>(i)] = message.position[index];
+    if (!std::isfinite(message.position[index])) {
+      sample.fault = "joint_states: position of " + joint_names[i] + " is not finite";
+    }
+  }
+  if (sample.fault.empty()) sample.position = position;
+  return sample;
+}
+
+Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
+                     const NodeParams& params) {
+  if (message.points.empty()) return hold_setpoint();
+  if (message.header.frame_id != params.planning_frame) {
+    return refused_setpoint("frame_id '" + message.header.frame_id + "' must be '" +
+                            params.planning_frame + "'");
+  }
+  if (message.joint_names != std::vector<std::string>{params.hand_frame}) {
+    return refused_setpoint("joint_names must be ['" + params.hand_frame + "']");
+  }
+  const auto& point = message.points.front();
+  if (message.points.size() != 1 || point.transforms.size() != 1 || point.velocities.size() > 1) {
+    return refused_setpoint("must have one point with one transform and at most one velocity");
+  }
+  const geometry_msgs::Transform& pose = point.transforms.front();
+  const geometry_msgs::Twist twist =
+      point.velocities.empty() ? geometry_msgs::Twist() : point.velocities.front();
+  return checked_setpoint(to_core(pose.translation), to_core(pose.rotation).coeffs(),
+                          to_core(twist.linear), to_core(twist.angular));
+}
+
+trajectory_msgs::JointTrajectory command_message(const ControlResult& result,
+                                                 const std::vector<std::string>& joint_names) {
+  trajectory_msgs::JointTrajectory message;
+  message.header.stamp = prf_ros::to_ros_time(result.stamp);
+  message.joint_names = joint_names;
+  message.points.resize(1);
+  auto& point = message.points.front();
+  const auto& [position, velocity] = result.command;
+  point.positions.assign(position.data(), position.data() + position.size());
+  point.velocities.assign(velocity.data(), velocity.data() + velocity.size());
+  point.time_from_start = ros::Duration(0, 10'000'000);  // one control tick
+  return message;
+}
+
+prf_msgs::ControlStatus status_message(const ControlResult& result) {
+  using Status = prf_msgs::ControlStatus;
+  static_assert(Status::FOLLOWING == static_cast<int>(ControlCode::kFollowing) &&
+                Status::HOLDING == static_cast<int>(ControlCode::kHolding) &&
+                Status::LIMITED == static_cast<int>(ControlCode::kLimited) &&
+                Status::UNREACHABLE == static_cast<int>(ControlCode::kUnreachable) &&
+                Status::STALE_SETPOINT == static_cast<int>(ControlCode::kStaleSetpoint) &&
+                Status::INVALID_SETPOINT == static_cast<int>(ControlCode::kInvalidSetpoint));
+  Status message;
+  message.header.stamp = prf_ros::to_ros_time(result.stamp);
+  message.code = static_cast<std::uint8_t>(result.code);
+  message.reason = result.reason;
+  message.position_error = result.position_error;
+  message.orientation_error = result.orientation_error;
+  message.deviation = result.deviation;
+  return message;
+}
+
+}  // namespace prf_control

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "params.hpp"
+
+#include <prf_core/require.hpp>
+#include <prf_ros/private_parameters.hpp>
+
+namespace prf_control {
+
+void NodeParams::validate() const {
+  controller.validate();
+  const auto require_name = [](const std::string& parameter, const std::string& name) {
+    prf_core::require(!name.empty(), parameter, "''", "not empty");
+  };
+  require_name("joint_prefix", controller.joint_prefix);
+  require_name("planning_frame", planning_frame);
+  require_name("hand_frame", hand_frame);
+}
+
+std::vector<std::string> NodeParams::joint_names() const {
+  std::vector<std::string> names;
+  for (int i = 1; i <= 7; ++i) names.push_back(controller.joint_prefix + std::to_string(i));
+  return names;
+}
+
+NodeParams load_params(const ros::NodeHandle& private_handle) {
+  prf_ros::PrivateParameters values(private_handle);
+  NodeParams params{};
+  FollowerParams& follower = params.controller.follower;
+  follower.velocity_scale = values.number("velocity_scale");
+  follower.acceleration = values.number("acceleration");
+  follower.max_joint_step = values.number("max_joint_step");
+  follower.far_position = values.number("far_position");
+  follower.far_orientation = values.number("far_orientation");
+  follower.damping = values.number("damping");
+  follower.orientation_weight = values.number("orientation_weight");
+  follower.branch_patience = values.number("branch_patience");
+  params.controller.max_tracking_error = values.number("max_tracking_error");
+  params.controller.max_wait = values.number("max_wait");
+  params.controller.joint_prefix = values.text("joint_prefix");
+  params.planning_frame = values.text("planning_frame");
+  params.hand_frame = values.text("hand_frame");
+  values.refuse_unknown();
+  params.validate();
+  return params;
+}
+
+}  // namespace prf_control

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parameters of arm_controller: what the controller needs, and the names in its messages.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "prf_control/arm_controller.hpp"
+
+namespace prf_control {
+
+struct NodeParams {
+  ArmControllerParams controller;
+  std::string planning_frame;  // header.frame_id that a set-point must have
+  std::string hand_frame;      // the one name in its joint_names
+
+  void validate() const;
+  [[nodiscard]] std::vector<std::string> joint_names() const;  // from base to hand
+};
+
+// Throws std::invalid_argument for a parameter that is missing, unknown or out of bounds.
+[[nodiscard]] NodeParams load_params(const ros::NodeHandle& private_handle);
+
+}  // namespace prf_control
