@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private to ik_benchmark: its arguments and what it prints.
+// Private to ik_benchmark: its rows, and how they are printed and written.
 #pragma once
 
 #include <unistd.h>
@@ -7,61 +7,19 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace jaco_kinematics {
 
-struct Options {
+struct BenchmarkParams {
   std::string urdf = URDF_FILE;
   std::string json;
   int poses = 10000;
   unsigned seed = 1;
-  bool help = false;
 };
-
-inline int whole_number(const std::string& name, const std::string& text, int least, int most) {
-  std::size_t end = 0;
-  int value = least - 1;
-  try {
-    value = std::stoi(text, &end);
-  } catch (const std::exception&) {
-  }
-  if (end != text.size() || value < least || value > most) {
-    throw std::invalid_argument(name + " is " + text + ", must be " + std::to_string(least) +
-                                " .. " + std::to_string(most));
-  }
-  return value;
-}
-
-inline Options read_options(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    if (name == "--help" || name == "-h") {
-      std::puts(
-          "usage: ik_benchmark [--poses N] [--seed N] [--urdf FILE] [--json FILE]\n"
-          "Times the closed form and KDL's LMA and NR_JL on the same random reachable poses.");
-      options.help = true;
-      return options;
-    }
-    if (i + 1 == argc) throw std::invalid_argument(name + " lacks its value, or is unknown");
-    const std::string value = argv[++i];
-    if (name == "--poses") {
-      options.poses = whole_number(name, value, 1, 1000000);
-    } else if (name == "--seed") {
-      options.seed = static_cast<unsigned>(whole_number(name, value, 0, 2147483647));
-    } else if (name == "--urdf") {
-      options.urdf = value;
-    } else if (name == "--json") {
-      options.json = value;
-    } else {
-      throw std::invalid_argument("unknown argument " + name);
-    }
-  }
-  return options;
-}
 
 struct Row {
   std::string solver;
@@ -96,20 +54,20 @@ inline void print_table(const std::vector<Row>& rows) {
   }
 }
 
-inline void write_json(const std::vector<Row>& rows, const Options& options) {
-  std::ofstream file(options.json);
-  file.precision(9);
-  file << "{\"poses\": " << options.poses << ", \"seed\": " << options.seed << ", \"rows\": [";
+inline void write_json(const std::vector<Row>& rows, const BenchmarkParams& params) {
+  nlohmann::ordered_json out = {{"poses", params.poses}, {"seed", params.seed}};
   for (const Row& row : rows) {
-    file << (&row == &rows.front() ? "\n" : ",\n") << " {\"solver\": \"" << row.solver
-         << "\", \"solved_percent\": " << row.percent(row.solved)
-         << ", \"met_percent\": " << row.percent(row.converged)
-         << ", \"median_us\": " << row.quantile(0.5) << ", \"p99_us\": " << row.quantile(0.99)
-         << ", \"max_position_error_m\": " << row.position_error
-         << ", \"max_orientation_error_rad\": " << row.orientation_error << "}";
+    out["rows"].push_back({{"solver", row.solver},
+                           {"solved_percent", row.percent(row.solved)},
+                           {"met_percent", row.percent(row.converged)},
+                           {"median_us", row.quantile(0.5)},
+                           {"p99_us", row.quantile(0.99)},
+                           {"max_position_error_m", row.position_error},
+                           {"max_orientation_error_rad", row.orientation_error}});
   }
-  file << "\n]}\n";
-  if (!file.flush()) throw std::invalid_argument("--json " + options.json + " cannot be written");
+  std::ofstream file(params.json);
+  file << out.dump(1) << '\n';
+  if (!file.flush()) throw std::invalid_argument("--json " + params.json + " cannot be written");
 }
 
 }  // namespace jaco_kinematics

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inverse kinematics of the arm on the same random reachable poses in one run: the closed form and
-// KDL's two iterative solvers. Far: every solver starts from the arm ready in front. Near: from
-// joints at most kNear from some that give the pose, as a controller does. Times are of the thread.
+// Inverse kinematics of the arm on random reachable poses: the closed form and KDL's two iterative
+// solvers, all on the same poses in one run. Far: every solver starts from the arm ready in front.
+// Near: from joints at most kNear from some that give the pose, as a controller does. Times are
+// processor times of the thread.
 #include <time.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,7 +26,7 @@
 namespace jaco_kinematics {
 namespace {
 
-constexpr double kPrecision = 1e-6;  // that KDL is asked for, and every answer must have; m, rad
+constexpr double kPrecision = 1e-6;  // m, rad; asked of KDL, and that each result must have
 constexpr int kMaxIterations = 500;
 constexpr double kNear = 0.05;  // rad of every joint
 
@@ -89,7 +91,7 @@ Row measure(const std::string& name, const std::vector<Task>& tasks, const Solve
   return row;
 }
 
-std::optional<JointVector> answer(const IkResult& result) {
+std::optional<JointVector> solution(const IkResult& result) {
   return result.status == IkStatus::kSolved ? std::optional<JointVector>(result.q) : std::nullopt;
 }
 
@@ -112,11 +114,11 @@ KDL::Chain arm_chain(const std::string& urdf) {
 }
 
 // The same poses, far in the first list and near in the second.
-std::pair<std::vector<Task>, std::vector<Task>> draw_tasks(const Options& options) {
-  std::mt19937 generator(options.seed);
+std::pair<std::vector<Task>, std::vector<Task>> draw_tasks(const BenchmarkParams& params) {
+  std::mt19937 generator(params.seed);
   std::uniform_real_distribution<> offset(-kNear, kNear);
   std::pair<std::vector<Task>, std::vector<Task>> tasks;
-  for (int i = 0; i < options.poses; ++i) {
+  for (int i = 0; i < params.poses; ++i) {
     const JointVector q = random_joints(&generator);
     const JointVector seed = q + JointVector::NullaryExpr([&] { return offset(generator); });
     const JointLimits& limits = jaco_joint_limits();
@@ -126,8 +128,8 @@ std::pair<std::vector<Task>, std::vector<Task>> draw_tasks(const Options& option
   return tasks;
 }
 
-std::vector<Row> run(const Options& options) {
-  const KDL::Chain chain = arm_chain(options.urdf);
+std::vector<Row> run(const BenchmarkParams& params) {
+  const KDL::Chain chain = arm_chain(params.urdf);
   const JointLimits& limits = jaco_joint_limits();
   KDL::ChainIkSolverPos_LMA lma(chain, Eigen::Matrix<double, 6, 1>::Ones(), kPrecision,
                                 kMaxIterations);
@@ -137,10 +139,10 @@ std::vector<Row> run(const Options& options) {
                                     to_kdl(limits.lower.cwiseMax(JointVector::Constant(-2 * M_PI))),
                                     to_kdl(limits.upper.cwiseMin(JointVector::Constant(2 * M_PI))),
                                     fk, velocity, kMaxIterations, kPrecision);
-  const auto any = [](const Task& task) { return answer(any_inverse(task.pose)); };
-  const auto nearest = [](const Task& task) { return answer(inverse(task.pose, task.seed)); };
+  const auto any = [](const Task& task) { return solution(any_inverse(task.pose)); };
+  const auto nearest = [](const Task& task) { return solution(inverse(task.pose, task.seed)); };
 
-  const auto [far, near] = draw_tasks(options);
+  const auto [far, near] = draw_tasks(params);
   std::vector<Row> rows;
   rows.push_back(measure("far: closed form, any solution", far, any));
   rows.push_back(measure("far: closed form, nearest to the seed", far, nearest));
@@ -157,12 +159,19 @@ std::vector<Row> run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace jaco_kinematics;
+  BenchmarkParams params;
+  CLI::App app("Times the closed form and KDL's LMA and NR_JL on the same random reachable poses.");
+  app.add_option("--poses", params.poses)->check(CLI::Range(1, 1000000))->capture_default_str();
+  app.add_option("--seed", params.seed)->check(CLI::Range(0, 2147483647))->capture_default_str();
+  app.add_option("--urdf", params.urdf)->capture_default_str();
+  app.add_option("--json", params.json, "also write the figures to this file");
   try {
-    const Options options = read_options(argc, argv);
-    if (options.help) return 0;
-    const std::vector<Row> rows = run(options);
+    app.parse(argc, argv);
+    const std::vector<Row> rows = run(params);
     print_table(rows);
-    if (!options.json.empty()) write_json(rows, options);
+    if (!params.json.empty()) write_json(rows, params);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     std::cerr << "ik_benchmark: " << error.what() << '\n';
     return 2;

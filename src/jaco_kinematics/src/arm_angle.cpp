@@ -37,7 +37,7 @@ std::vector<Arc> intersection(const Arc& a, const Arc& b) {
 }  // namespace
 
 ArmAxes arm_axes(const Eigen::Vector3d& shoulder_to_wrist) {
-  constexpr double kVertical = 1e-6;
+  constexpr double kVertical = 1e-6;  // sine of the angle to the vertical; no direction below
   ArmAxes axes;
   axes.axis = shoulder_to_wrist.normalized();
   const bool vertical = std::hypot(axes.axis.x(), axes.axis.y()) < kVertical;

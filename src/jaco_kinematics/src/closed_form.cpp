@@ -2,8 +2,7 @@
 #include "closed_form.hpp"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <prf_core/require.hpp>
 
 #include "arm_angle.hpp"
 #include "pose_step.hpp"
@@ -31,7 +30,7 @@ struct ShoulderSolution {
 std::optional<ShoulderSolution> solve_shoulder(const Eigen::Vector3d& wrist, double phi,
                                                int branch) {
   constexpr int kIterations = 12;
-  constexpr double kSettled = 1e-9;  // [rad]
+  constexpr double kSettled = 1e-9;  // [rad] of q1
   const double sign = branch == 0 ? 1.0 : -1.0;
   Eigen::Vector3d shoulder(0.0, 0.0, kShoulderHeight);
   ShoulderSolution solution{};
@@ -100,8 +99,7 @@ PoseErrors pose_errors(const Frames& frames, const Eigen::Isometry3d& pose) {
 }
 
 bool polish(const Eigen::Isometry3d& pose, JointVector* q) {
-  constexpr int kIterations = 12;
-  constexpr double kLargestStep = 0.3;  // [rad] in the norm of q
+  constexpr int kIterations = 12;  // quadratic convergence from about 1e-7
   for (int i = 0; i < kIterations; ++i) {
     const Frames frames = link_frames(*q);
     const auto difference = pose_difference(frames.end_effector, pose);
@@ -116,9 +114,7 @@ bool polish(const Eigen::Isometry3d& pose, JointVector* q) {
 
 std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, double phi) {
   const Eigen::Isometry3d target = checked_pose(pose);
-  if (!std::isfinite(phi)) {
-    throw std::invalid_argument("phi = " + std::to_string(phi) + " is not finite");
-  }
+  prf_core::require_finite("phi", phi);
   std::vector<IkSolution> solutions;
   for (int branch = 0; branch < kBranches; ++branch) {
     auto q = branch_solution(target, phi, branch);

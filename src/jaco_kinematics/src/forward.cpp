@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <prf_core/require.hpp>
 #include <string>
 
 #include "geometry.hpp"
@@ -34,12 +34,13 @@ inline Eigen::Vector3d column_after(const Eigen::Matrix3d& frame, const FixedTra
   return fixed.sign[i] * frame.col(fixed.axis[i]);
 }
 
+// The figures of jaco_v60_description/urdf/jaco2.xacro (the vendor's); a test compares them.
 JointLimits make_limits() {
   constexpr double kDegree = kPi / 180.0;
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  constexpr double kContinuous = std::numeric_limits<double>::infinity();
   JointLimits limits;
-  limits.lower << -kEndless, 47.0, -kEndless, 30.0, -kEndless, 65.0, -kEndless;
-  limits.upper << kEndless, 313.0, kEndless, 330.0, kEndless, 295.0, kEndless;
+  limits.lower << -kContinuous, 47.0, -kContinuous, 30.0, -kContinuous, 65.0, -kContinuous;
+  limits.upper << kContinuous, 313.0, kContinuous, 330.0, kContinuous, 295.0, kContinuous;
   limits.velocity << 36.0, 36.0, 36.0, 36.0, 48.0, 48.0, 48.0;
   limits.lower *= kDegree;
   limits.upper *= kDegree;
@@ -50,6 +51,7 @@ JointLimits make_limits() {
 
 }  // namespace
 
+// As above.
 const std::array<FixedTransform, 8>& joint_origins() {
   static const std::array<FixedTransform, 8> kOrigins = {
       make_transform(0.0, 0.0, 0.15675, 0.0, kPi, 0.0),
@@ -83,25 +85,20 @@ Eigen::Vector3d shoulder_point(double q1) {
 }
 
 void check_finite(const JointVector& values, const char* name) {
+  if (values.allFinite()) return;
   for (int i = 0; i < 7; ++i) {
-    if (!std::isfinite(values[i])) {
-      throw std::invalid_argument(std::string(name) + "[" + std::to_string(i) +
-                                  "] = " + std::to_string(values[i]) + " is not finite");
-    }
+    prf_core::require_finite(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
   }
 }
 
 Eigen::Isometry3d checked_pose(const Eigen::Isometry3d& pose) {
-  constexpr double kTolerance = 1e-6;
-  if (!pose.matrix().allFinite()) {
-    throw std::invalid_argument("pose has an entry that is not finite");
-  }
+  constexpr double kTolerance = 1e-6;  // of every entry of R^T R; float messages are within it
+  prf_core::require(pose.matrix().allFinite(), "pose", pose.matrix(), "finite");
   const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
   const double deviation = (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (deviation > kTolerance || pose.linear().determinant() < 0.0) {
-    throw std::invalid_argument("rotation of pose deviates from orthonormal by " +
-                                std::to_string(deviation) + ", bound 1e-6, right-handed");
-  }
+  prf_core::require(deviation <= kTolerance && pose.linear().determinant() > 0.0,
+                    "deviation of the pose's rotation from orthonormal", deviation,
+                    "<= 1e-6, and the axes right-handed");
   Eigen::Isometry3d result = pose;
   result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
   return result;

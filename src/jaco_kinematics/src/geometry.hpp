@@ -12,7 +12,8 @@ namespace jaco_kinematics {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Axes 2 and 3 meet in the shoulder point S = (0, 0, kShoulderHeight)
+// Metres, sums of the joint origins in jaco_v60_description/urdf/jaco2.xacro (the vendor's
+// figures). Axes 2 and 3 meet in the shoulder point S = (0, 0, kShoulderHeight)
 // + kShoulderOffset (sin q1, cos q1, 0); axes 5, 6 and 7 meet in the wrist centre W.
 // In the elbow frame (axis 4 = z, forearm along y) W = (0, kForearm, kElbowOffset).
 constexpr double kShoulderHeight = 0.2755;
@@ -22,7 +23,7 @@ constexpr double kForearm = 0.31105;
 constexpr double kElbowOffset = -0.0114;
 constexpr double kToolLength = 0.26375;  // from W along the tool axis
 
-// All of them turn by right angles: column i of the rotation is sign[i] times the unit vector
+// All origins turn by right angles: column i of the rotation is sign[i] times the unit vector
 // axis[i].
 struct FixedTransform {
   Eigen::Matrix3d rotation;

@@ -6,6 +6,10 @@
 
 namespace jaco_kinematics {
 
+// [rad] in the norm of q. Ours: longer steps are shortened to this, over which the pose is still
+// nearly linear in q.
+constexpr double kLargestStep = 0.3;
+
 struct PoseStep {
   JointVector least;        // the shortest dq with J dq = difference
   JointVector self_motion;  // unit joint motion that does not move the hand, up to its sign

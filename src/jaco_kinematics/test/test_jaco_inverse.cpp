@@ -67,12 +67,12 @@ TEST(JacoInverse, FindsAnySolutionOfEveryReachablePose) {
 
 TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   std::mt19937 generator(12);
-  IkParams options;
-  options.limit_weight = 0.0;
-  options.null_space_step = 0.0;
+  IkParams params;
+  params.limit_weight = 0.0;
+  params.null_space_step = 0.0;
   for (int trial = 0; trial < 1000; ++trial) {
     const JointVector q = random_joints(&generator);
-    const IkResult result = inverse(forward(q), q, options);
+    const IkResult result = inverse(forward(q), q, params);
     ASSERT_EQ(result.status, IkStatus::kSolved);
     ASSERT_LT((result.q - q).norm(), 1e-6) << q.transpose();
   }
@@ -81,9 +81,9 @@ TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
 // The configuration the pose was made from is a solution, so the answer must not be farther.
 TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
   constexpr int kPoses = 2000;
-  IkParams options;
-  options.limit_weight = 0.0;
-  options.null_space_step = 0.0;
+  IkParams params;
+  params.limit_weight = 0.0;
+  params.null_space_step = 0.0;
   std::mt19937 generator(17);
   std::uniform_real_distribution<> offset(-0.7, 0.7);
   int nearest = 0;
@@ -91,10 +91,10 @@ TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
     const JointVector q = random_joints(&generator);
     JointVector seed = q;
     for (int i = 0; i < 7; ++i) seed[i] += offset(generator);
-    const IkResult result = inverse(forward(q), seed, options);
+    const IkResult result = inverse(forward(q), seed, params);
     ASSERT_EQ(result.status, IkStatus::kSolved);
-    const double cost = (result.q - seed).cwiseAbs2().dot(options.weight);
-    if (cost < (q - seed).cwiseAbs2().dot(options.weight) + 1e-6) ++nearest;
+    const double cost = (result.q - seed).cwiseAbs2().dot(params.weight);
+    if (cost < (q - seed).cwiseAbs2().dot(params.weight) + 1e-6) ++nearest;
   }
   RecordProperty("nearest", nearest);
   EXPECT_GE(nearest, kPoses * 99 / 100);
@@ -200,13 +200,13 @@ TEST(JacoInverse, MovesAwayFromALimitWhileThePoseStands) {
 
 // Each answer is the next seed, the pose stands.
 void drift(int calls, JointVector* q) {
-  IkParams options;
-  options.limit_weight = 0.0;
+  IkParams params;
+  params.limit_weight = 0.0;
   const Eigen::Isometry3d pose = forward(*q);
   for (int call = 0; call < calls; ++call) {
-    const IkResult result = inverse(pose, *q, options);
+    const IkResult result = inverse(pose, *q, params);
     ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
-    ASSERT_LE((result.q - *q).norm(), options.null_space_step + 1e-6) << "call " << call;
+    ASSERT_LE((result.q - *q).norm(), params.null_space_step + 1e-6) << "call " << call;
     *q = result.q;
   }
 }
@@ -315,21 +315,21 @@ TEST(JacoInverse, RefusesWhatIsNoPoseSeedOrOption) {
   EXPECT_THROW((void)inverse(pose, bad_seed), std::invalid_argument);
   EXPECT_THROW((void)inverse_at_arm_angle(pose, std::nan("")), std::invalid_argument);
 
-  IkParams options;
-  options.weight[2] = 0.0;
-  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkParams();
-  options.limit_margin = -0.1;
-  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkParams();
-  options.null_space_margin = 0.0;
-  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkParams();
-  options.null_space_step = -1e-4;
-  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
-  options = IkParams();
-  options.limit_weight = -1.0;
-  EXPECT_THROW((void)inverse(pose, seed, options), std::invalid_argument);
+  IkParams params;
+  params.weight[2] = 0.0;
+  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
+  params = IkParams();
+  params.limit_margin = -0.1;
+  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
+  params = IkParams();
+  params.null_space_margin = 0.0;
+  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
+  params = IkParams();
+  params.null_space_step = -1e-4;
+  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
+  params = IkParams();
+  params.limit_weight = -1.0;
+  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far the hand is from a swaying target: arm controller and a stand-in for the arm, without a
 // ROS graph. At each tick the set-point is where the target is `lead` later, with its velocity.
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,13 +22,12 @@ namespace {
 
 using jaco_kinematics::forward;
 
-struct Options {
+struct BenchmarkParams {
   double amplitude = 0.05;  // m, along y of the arm's base
   double lead = 0.02;       // s
   double acceleration = 4;  // rad/s^2
   double velocity_scale = 0.95;
   std::string json;
-  bool help = false;
 };
 
 struct Sine {
@@ -45,8 +48,8 @@ struct Row {
 
 JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
 
-ArmControllerParams parameters(const Options& options) {
-  return {{options.velocity_scale, options.acceleration, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0},
+ArmControllerParams controller_params(const BenchmarkParams& params) {
+  return {{params.velocity_scale, params.acceleration, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0},
           0.2,
           0.3,
           "joint_"};
@@ -73,20 +76,21 @@ struct Phasor {
   }
 };
 
-bool keeps_limits(const MotionState& before, const MotionState& after, const Options& options) {
+bool keeps_limits(const MotionState& before, const MotionState& after,
+                  const BenchmarkParams& params) {
   constexpr double kRounding = 1e-9;
   const auto& limits = jaco_kinematics::jaco_joint_limits();
   const JointVector change = (after.velocity - before.velocity) / ServoArm::kPeriod;
-  return ((after.velocity.cwiseAbs() - options.velocity_scale * limits.velocity).maxCoeff() <=
+  return ((after.velocity.cwiseAbs() - params.velocity_scale * limits.velocity).maxCoeff() <=
           kRounding) &&
-         change.cwiseAbs().maxCoeff() <= options.acceleration + 1e2 * kRounding &&
+         change.cwiseAbs().maxCoeff() <= params.acceleration + 1e2 * kRounding &&
          (after.position - limits.lower).minCoeff() >= 0 &&
          (limits.upper - after.position).minCoeff() >= 0;
 }
 
 // One period to settle, four to measure.
-Row measure(const std::string& name, const Sway& sway, const Options& options) {
-  ArmController controller(parameters(options));
+Row measure(const std::string& name, const Sway& sway, const BenchmarkParams& params) {
+  ArmController controller(controller_params(params));
   ServoArm arm{home()};
   const double frequency = sway.front().frequency;
   const double middle = forward(home()).translation().y();
@@ -99,11 +103,11 @@ Row measure(const std::string& name, const Sway& sway, const Options& options) {
     const double now = i * ServoArm::kPeriod;
     Setpoint setpoint;
     setpoint.kind = SetpointKind::kPose;
-    setpoint.pose = target_at(sway, now + options.lead);
+    setpoint.pose = target_at(sway, now + params.lead);
     const prf_core::Stamp stamp = i * std::chrono::milliseconds(10);
     controller.add_joints({stamp, arm.position, ""});
     const ControlResult result = controller.add_setpoint(stamp, setpoint).front();
-    row.within_limits = row.within_limits && keeps_limits(before, result.command, options);
+    row.within_limits = row.within_limits && keeps_limits(before, result.command, params);
     before = result.command;
     arm.run(result.command);
     if (i < ticks / 5) continue;
@@ -125,13 +129,13 @@ Row measure(const std::string& name, const Sway& sway, const Options& options) {
   return row;
 }
 
-std::vector<Row> run(const Options& options) {
+std::vector<Row> run(const BenchmarkParams& params) {
   std::vector<Row> rows;
   for (const double frequency : {0.5, 1.0, 2.0, 3.0}) {
-    rows.push_back(measure("sway", {{options.amplitude, frequency}}, options));
+    rows.push_back(measure("sway", {{params.amplitude, frequency}}, params));
   }
-  const double a = options.amplitude;
-  rows.push_back(measure("sway, steps at 12 rad/s", {{a, 2.4}, {0.2 * a, 12.0}}, options));
+  const double a = params.amplitude;
+  rows.push_back(measure("sway, steps at 12 rad/s", {{a, 2.4}, {0.2 * a, 12.0}}, params));
   return rows;
 }
 
@@ -146,68 +150,25 @@ void print_table(const std::vector<Row>& rows) {
   }
 }
 
-void write_json(const std::vector<Row>& rows, const Options& options) {
-  std::ofstream file(options.json);
-  file.precision(9);
-  file << "{\"amplitude_m\": " << options.amplitude << ", \"lead_s\": " << options.lead
-       << ", \"acceleration_rad_per_s2\": " << options.acceleration
-       << ", \"velocity_scale\": " << options.velocity_scale << ", \"rows\": [";
+void write_json(const std::vector<Row>& rows, const BenchmarkParams& params) {
+  nlohmann::ordered_json out = {{"amplitude_m", params.amplitude},
+                                {"lead_s", params.lead},
+                                {"acceleration_rad_per_s2", params.acceleration},
+                                {"velocity_scale", params.velocity_scale}};
   for (const Row& row : rows) {
-    file << (&row == &rows.front() ? "\n" : ",\n") << " {\"target\": \"" << row.target
-         << "\", \"frequency_rad_per_s\": " << row.frequency
-         << ", \"rms_position_error_m\": " << row.rms << ", \"p95_position_error_m\": " << row.p95
-         << ", \"max_position_error_m\": " << row.most
-         << ", \"max_orientation_error_rad\": " << row.orientation << ", \"lag_s\": " << row.lag
-         << ", \"limited_share\": " << row.limited
-         << ", \"within_limits\": " << (row.within_limits ? "true" : "false") << "}";
+    out["rows"].push_back({{"target", row.target},
+                           {"frequency_rad_per_s", row.frequency},
+                           {"rms_position_error_m", row.rms},
+                           {"p95_position_error_m", row.p95},
+                           {"max_position_error_m", row.most},
+                           {"max_orientation_error_rad", row.orientation},
+                           {"lag_s", row.lag},
+                           {"limited_share", row.limited},
+                           {"within_limits", row.within_limits}});
   }
-  file << "\n]}\n";
-  if (!file.flush()) throw std::invalid_argument("--json " + options.json + " cannot be written");
-}
-
-double bounded(const std::string& name, const std::string& text, double least, double most) {
-  std::size_t end = 0;
-  double value = std::nan("");
-  try {
-    value = std::stod(text, &end);
-  } catch (const std::exception&) {
-  }
-  if (end != text.size() || !(value >= least && value <= most)) {
-    throw std::invalid_argument(name + " is " + text + ", must be " + std::to_string(least) +
-                                " .. " + std::to_string(most));
-  }
-  return value;
-}
-
-Options read_options(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    if (name == "--help" || name == "-h") {
-      std::puts(
-          "usage: tracking_error [--amplitude M] [--lead S] [--acceleration RAD_S2]\n"
-          "                      [--velocity-scale SHARE] [--json FILE]\n"
-          "How far the hand is from a target that sways sideways, for four frequencies.");
-      options.help = true;
-      return options;
-    }
-    if (i + 1 == argc) throw std::invalid_argument(name + " lacks its value, or is unknown");
-    const std::string value = argv[++i];
-    if (name == "--amplitude") {
-      options.amplitude = bounded(name, value, 1e-6, 0.3);
-    } else if (name == "--lead") {
-      options.lead = bounded(name, value, 0, 1);
-    } else if (name == "--acceleration") {
-      options.acceleration = bounded(name, value, 1e-3, 100);
-    } else if (name == "--velocity-scale") {
-      options.velocity_scale = bounded(name, value, 1e-3, 1);
-    } else if (name == "--json") {
-      options.json = value;
-    } else {
-      throw std::invalid_argument("unknown argument " + name);
-    }
-  }
-  return options;
+  std::ofstream file(params.json);
+  file << out.dump(1) << '\n';
+  if (!file.flush()) throw std::invalid_argument("--json " + params.json + " cannot be written");
 }
 
 }  // namespace
@@ -215,12 +176,24 @@ Options read_options(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace prf_control;
+  BenchmarkParams params;
+  CLI::App app("How far the hand is from a target that sways sideways, for four frequencies.");
+  const auto add = [&](const char* name, double& value, double least, double most,
+                       const char* meaning) {
+    app.add_option(name, value, meaning)->check(CLI::Range(least, most))->capture_default_str();
+  };
+  add("--amplitude", params.amplitude, 1e-6, 0.3, "of the target, m");
+  add("--lead", params.lead, 0, 1, "of the set-point, s");
+  add("--acceleration", params.acceleration, 1e-3, 100, "limit of the joints, rad/s^2");
+  add("--velocity-scale", params.velocity_scale, 1e-3, 1, "share of the joints' velocity limits");
+  app.add_option("--json", params.json, "also write the figures to this file");
   try {
-    const Options options = read_options(argc, argv);
-    if (options.help) return 0;
-    const std::vector<Row> rows = run(options);
+    app.parse(argc, argv);
+    const std::vector<Row> rows = run(params);
     print_table(rows);
-    if (!options.json.empty()) write_json(rows, options);
+    if (!params.json.empty()) write_json(rows, params);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     std::cerr << "tracking_error: " << error.what() << '\n';
     return 2;

@@ -9,8 +9,9 @@
 namespace prf_control {
 namespace {
 
-// The part of the acceleration planned for braking along the way to the goal; the rest turns the
-// motion, so that it spirals into a goal that is approached from the side instead of around it.
+// Share of the acceleration that is planned for braking along the way to the goal. The rest turns
+// the motion toward the goal, so that a goal approached from the side is not circled. Ours
+// (test_joint_motion, SettlesSoonOnAGoalGivenInFullMotion).
 constexpr double kBrakingShare = 0.6;
 
 void check(const MotionState& state, const char* name) {

@@ -7,8 +7,8 @@
 namespace prf_control {
 namespace {
 
-constexpr int kMaxSweeps = 1000;
-constexpr double kConverged = 1e-10;  // [rad/s]
+constexpr int kMaxSweeps = 1000;      // ours: tens are used; bounds the time of a tick
+constexpr double kConverged = 1e-10;  // [rad/s] of every joint; the commands' rounding is 1e-11
 
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
@@ -30,13 +30,13 @@ JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const Veloci
 
 }  // namespace
 
-JointVector resolved_rate(const ResolvedRateProblem& request, const VelocityRange& range) {
+JointVector resolved_rate(const ResolvedRateProblem& problem, const VelocityRange& range) {
   Twist weight;
-  weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(request.orientation_weight);
-  const jaco_kinematics::Jacobian A = weight.asDiagonal() * request.jacobian;
+  weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(problem.orientation_weight);
+  const jaco_kinematics::Jacobian A = weight.asDiagonal() * problem.jacobian;
   const Matrix7 H = A.transpose() * A + kNullSpaceWeight * Matrix7::Identity();
-  const JointVector g = A.transpose() * weight.cwiseProduct(request.twist) +
-                        kNullSpaceWeight * request.null_space_velocity;
+  const JointVector g = A.transpose() * weight.cwiseProduct(problem.twist) +
+                        kNullSpaceWeight * problem.null_space_velocity;
   return bounded_minimum(H, g, range);
 }
 

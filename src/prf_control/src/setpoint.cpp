@@ -7,8 +7,8 @@
 namespace prf_control {
 namespace {
 
-constexpr double kLargest = 1e3;
-constexpr double kUnitTolerance = 0.01;
+constexpr double kLargest = 1e3;         // m, m/s, rad/s: beyond any arm
+constexpr double kUnitTolerance = 0.01;  // of the quaternion's length
 
 std::string refusal_of(const char* name, const Eigen::Vector3d& value) {
   if (value.allFinite() && value.cwiseAbs().maxCoeff() <= kLargest) return "";

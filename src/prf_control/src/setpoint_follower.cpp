@@ -19,13 +19,23 @@ using jaco_kinematics::IkResult;
 using jaco_kinematics::IkStatus;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kArrived = 0.02;  // [rad] of every joint: the change of branch is over
+// The constants below are ours; the tests named say what they achieve.
 
-// What the limits have cost is made good at this rate at most, and with no more than this
-// acceleration of the hand, so that the joints can brake in time.
-constexpr double kCatchUpRate = 12.0;         // [1/s]
+// [rad] of every joint: the change of branch is over. (test_branch_change)
+constexpr double kArrived = 0.02;
+// The resolved-rate step corrects the error e of the hand with the velocity
+// min(kCatchUpRate, sqrt(2 kCatchUpAcceleration / e)) e: exponentially near the set-point, and so
+// that a braking at kCatchUpAcceleration ends there from afar. An orientation counts for
+// orientation_weight metres a radian. (test_setpoint_follower, KeepsTheHandOnItsWay...)
+constexpr double kCatchUpRate = 12.0;         // [1/s]; the ticks come at 100 Hz
 constexpr double kCatchUpAcceleration = 1.0;  // [m/s^2]
-constexpr double kNullSpaceRate = 2.0;        // [1/s] of the joints toward those of the goal
+// [1/s] Rate at which the null-space objective draws the joints to those of the goal.
+constexpr double kNullSpaceRate = 2.0;
+// [rad] of every joint: the command is on its goal, so the null-space drift may go on.
+constexpr double kOnGoal = 1e-6;
+// The drift's change of velocity in one tick, as a share of what the acceleration limit allows:
+// it can start and end within one tick without meeting the limit.
+constexpr double kDriftShare = 0.8;
 
 MotionLimits limits_of(const FollowerParams& params) {
   const auto& joints = jaco_kinematics::jaco_joint_limits();
@@ -81,10 +91,10 @@ void SetpointFollower::start(const JointVector& measured) {
 
 void SetpointFollower::reset() {
   state_.reset();
-  forget_set_points();
+  forget_setpoints();
 }
 
-void SetpointFollower::forget_set_points() {
+void SetpointFollower::forget_setpoints() {
   goal_.reset();
   last_pose_.reset();
   refused_for_ = 0;
@@ -120,7 +130,7 @@ FollowerStep SetpointFollower::hold(double dt) {
   FollowerStep step;
   step.motion = step_to_rest(state(), dt, limits_);
   state_ = step.motion.state;
-  forget_set_points();
+  forget_setpoints();
   return step;
 }
 
@@ -163,11 +173,11 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
     return (q - reference).cwiseAbs().maxCoeff() > params_.max_joint_step;
   };
 
-  // An arm that lags behind its goal is better served by the solution nearest to where it is.
-  const IkParams options = ik_params(dt);
-  IkResult solution = jaco_kinematics::inverse(pose, state().position, options);
+  // First the solution nearest to the command; where that jumps, the one nearest to the last goal.
+  const IkParams ik = ik_params(dt);
+  IkResult solution = jaco_kinematics::inverse(pose, state().position, ik);
   if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
-    solution = jaco_kinematics::inverse(pose, reference, options);
+    solution = jaco_kinematics::inverse(pose, reference, ik);
   }
   const bool solved = solution.status == IkStatus::kSolved;
   const JointVector q =
@@ -189,17 +199,16 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt)}, -1, 0.0};
 }
 
-// The posture improves while the command is on its goal, not on the way there.
+// The null-space drift runs while the command is on its goal, not on the way there.
 IkParams SetpointFollower::ik_params(double dt) const {
-  constexpr double kOnGoal = 1e-6;  // [rad]
   const bool on_goal = goal_ && (state().position - *goal_).cwiseAbs().maxCoeff() < kOnGoal;
-  IkParams options;
-  options.null_space_step =
-      on_goal ? std::min(kNullSpaceSpeed * dt, 0.8 * params_.acceleration * dt * dt) : 0.0;
-  return options;
+  IkParams ik;
+  ik.null_space_step =
+      on_goal ? std::min(kNullSpaceSpeed * dt, kDriftShare * params_.acceleration * dt * dt) : 0.0;
+  return ik;
 }
 
-// Zero where the pose one period ago has no solution near the goal: the goal came from nowhere.
+// Zero where the pose of one period ago has no solution near the goal.
 JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal,
                                             double dt) const {
   if (setpoint.linear_velocity.isZero(0.0) && setpoint.angular_velocity.isZero(0.0)) {

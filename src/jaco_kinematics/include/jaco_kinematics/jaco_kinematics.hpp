@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kinematics of the Kinova j2s7s300 (Jaco2, 7 joints, spherical wrist) in closed form.
+// Forward and inverse kinematics of the Kinova Jaco2 with 7 joints and a spherical wrist
+// (j2s7s300), in closed form. This is the only header to include:
 //
-//   forward:  T(q)  = pose of j2s7s300_end_effector in j2s7s300_link_base
-//   inverse:  q     with T(q) = pose, one-parameter family in the arm angle phi, 8 branches each
+//   const IkResult result = inverse(hand_in_base, joints_now);
+//   if (result.status == IkStatus::kSolved) command(result.q);
 //
-// Arm angle: with S the shoulder point, W the wrist centre and E the elbow, phi is the right-handed
-// angle about S->W from the upward vertical (made normal to S->W) to the direction of E.
-// Where W lies above or below S the vertical is replaced by the base's x axis.
+// The hand is the frame j2s7s300_end_effector, its base j2s7s300_link_base.
 //
-// Units: metres, radians. Joints 1, 3, 5, 7 turn without end; 2, 4, 6 lie in [0, 2 pi).
-// All functions are pure; std::invalid_argument for non-finite input or a pose that is no rotation.
+//   forward:  T(q)  = pose of the hand in the base
+//   inverse:  q     with T(q) = pose; one joint more than the pose needs, so the solutions are
+//                   up to 8 branches, each a curve over the arm angle phi
+//
+// Arm angle: with the shoulder S, the wrist centre W and the elbow E, phi is the right-handed angle
+// about S->W from the upward vertical (made normal to S->W) to the direction of E. Where W lies
+// above or below S, the base's x axis takes the place of the vertical.
+//
+// Metres, radians. Joints 1, 3, 5 and 7 are continuous; 2, 4 and 6 lie in [0, 2 pi).
+// All functions are pure. They throw std::invalid_argument for input that is not finite and for a
+// pose whose rotation is none.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +40,7 @@ const JointLimits& jaco_joint_limits();
 
 Eigen::Isometry3d forward(const JointVector& q);
 
-// Geometric Jacobian of the end-effector point in link_base, linear rows first.
+// Geometric Jacobian of the hand in the base, linear rows first.
 Jacobian jacobian(const JointVector& q);
 
 // Arm angle of a configuration, in (-pi, pi].
@@ -51,17 +59,19 @@ std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, doub
 
 enum class IkStatus { kSolved, kOutOfReach, kNoSolutionWithinLimits };
 
+// inverse() returns the solution of least cost: squared distance from the seed, and beside it a
+// small penalty near the joint limits.
 struct IkParams {
-  // Distance to the seed is sum_i weight_i (q_i - seed_i)^2; the default measures time of travel,
-  // relative to the slowest joints (36 deg/s against 48 deg/s).
+  // Squared distance is sum_i weight_i (q_i - seed_i)^2. The default measures time of travel
+  // relative to the slowest joints: (36 deg/s / 48 deg/s)^2 = 0.5625.
   JointVector weight = (JointVector() << 1.0, 1.0, 1.0, 1.0, 0.5625, 0.5625, 0.5625).finished();
-  // Cost limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a
+  // Penalty limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a
   // limit.
   double limit_margin = 0.3;    // [rad], > 0
   double limit_weight = 0.001;  // [rad^2], >= 0; small: continuity comes first
-  // Beside that, at most null_space_step of self-motion from the nearest solution while joint 2 or
-  // 6 is within null_space_margin of a limit or of its singularity at pi, away from there: with the
-  // answer as the next seed, a steady drift.
+  // Null-space objective: while joint 2 or 6 is within null_space_margin of a limit or of its
+  // singularity at pi, the solution is moved away from there by at most null_space_step of
+  // self-motion. With each result as the next seed this is a steady drift; the hand stays.
   double null_space_margin = 0.5;   // [rad], > 0
   double null_space_step = 0.0004;  // [rad] in the norm of q, >= 0; 0.04 rad/s at 100 Hz
 
@@ -76,13 +86,14 @@ struct IkResult {
   double orientation_error;  // [rad] of q
 };
 
-// The solution within limits that is nearest to the seed (continuous joints in the seed's turn)
-// and, as a smaller part of the cost, away from limits. kSolved means errors below 1e-9.
+// The solution of least cost within limits, continuous joints in the seed's turn. kSolved means
+// errors below 1e-9.
 [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
-                               const IkParams& options = IkParams());
+                               const IkParams& params = IkParams());
 
-// The first solution within limits that is met, for whoever has no seed: in the middle of a
-// feasible arc if it is there. The fastest; not continuous from pose to pose.
+// The first solution within limits that is found, for a caller without a seed. It is the fastest,
+// lies in the middle of a feasible arc of the arm angle where possible, and is not continuous from
+// pose to pose.
 [[nodiscard]] IkResult any_inverse(const Eigen::Isometry3d& pose);
 
 }  // namespace jaco_kinematics

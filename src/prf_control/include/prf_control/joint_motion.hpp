@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One control period of a joint motion within limits.
+// One control period of a joint motion within position, velocity and acceleration limits.
 //
 //   q' = q + v' dt     lower <= q' <= upper     |v'| <= velocity     |v' - v| <= acceleration dt
 //
-// The limits are kept for any sequence of dt > 0, from any state that keeps them and could still
-// brake before the position limits. All joints are slowed together, so a motion from rest
-// to a goal at rest is a straight line in joint space, without overshoot.
+// The limits are kept for any sequence of dt > 0, from any state that keeps them and can still
+// brake before the position limits. All joints are slowed by one factor, so a motion from rest to a
+// goal at rest is a straight line in joint space, without overshoot.
 // Units: radians, seconds. std::invalid_argument for non-finite input or dt <= 0.
 #pragma once
 
@@ -39,7 +39,7 @@ struct VelocityRange {
 [[nodiscard]] VelocityRange allowed_velocities(const MotionState& state, double dt,
                                                const MotionLimits& limits);
 
-// The state after one period at a velocity out of that range.
+// The state after one period at a velocity from that range.
 [[nodiscard]] MotionState moved(const MotionState& state, const JointVector& velocity, double dt,
                                 const MotionLimits& limits);
 
@@ -49,18 +49,18 @@ struct LimitedStep {
   MotionState state;
   Limit limit = Limit::kNone;  // what shaped this step, position before the others
   int joint = -1;              // the joint that met it
-  double asked = 0.0;          // what would have been without: [rad/s], [rad/s^2] for acceleration
-  double bound = 0.0;          // what was allowed, same unit
+  double asked = 0.0;          // without the limit: [rad/s], [rad/s^2] for acceleration
+  double bound = 0.0;          // the limit, same unit
 };
 
-// Fastest speed from which `distance` is left exactly when braking by `deceleration` every dt.
+// Fastest speed from which braking by `deceleration` in periods of dt ends exactly at `distance`.
 double approach_speed(double distance, double deceleration, double dt);
 
-// Toward a goal that moves on with goal.velocity: meets and follows it if the limits allow.
+// Toward a goal that moves with goal.velocity: meets and follows it if the limits allow.
 [[nodiscard]] LimitedStep step_toward(const MotionState& state, const MotionState& goal, double dt,
                                       const MotionLimits& limits);
 
-// Toward rest, the direction of motion kept.
+// Toward rest, in the direction of motion.
 [[nodiscard]] LimitedStep step_to_rest(const MotionState& state, double dt,
                                        const MotionLimits& limits);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the arm is asked to do at one tick, checked once, where it comes in.
+// What the arm shall do at one tick. checked_setpoint() is the one place where it is checked.
 #pragma once
 
 #include <Eigen/Core>

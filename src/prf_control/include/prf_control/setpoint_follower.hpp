@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a moving pose of the hand to joint positions and velocities, one control period at a time.
+// Follows a moving pose of the hand with joint positions and velocities, one control period at a
+// time.
 //
-//   goal      q_g = inverse(T), the solution nearest to the joints as they are, drifting by
-//             kNullSpaceSpeed at most away from limits and singularities;
+//   goal      q_g = inverse(T), the solution nearest to the command;
 //             T out of reach: the nearest pose (nearest_pose.hpp);
-//             a jump of a joint by more than max_joint_step, though T moved little (a change of
-//             branch): refused, the goal takes a damped step along the Jacobian instead; refused
-//             for branch_patience without a break: made after all, at kBranchChangeSpeed
+//             a joint of q_g jumps by more than max_joint_step though T moved little (a change of
+//             branch): refused, the goal takes a damped step along the Jacobian instead; after
+//             branch_patience of refusals the branch is changed, at kBranchChangeSpeed
 //   velocity  dq_g = (q_g - inverse(T moved back by its twist)) / dt
-//   command   the step of joint_motion.hpp toward (q_g, dq_g); where a limit would shape it, the
-//             joints that are left keep the hand on its way (resolved_rate.hpp), but for a
-//             set-point far from the last one, to which all joints go together
+//   command   the step of joint_motion.hpp toward (q_g, dq_g). Where a limit shapes that step, a
+//             resolved-rate step (resolved_rate.hpp) keeps the hand on its path instead; but to a
+//             set-point far from the last one all joints go together
 //
-// The follower's own last command is its state; it starts from measured joints, at rest. A
-// set-point reached within the limits is met exactly: forward(command) = T.
-// Frames: everything of the hand (j2s7s300_end_effector) in j2s7s300_link_base; m, rad, s.
+// While the command is on its goal, the redundancy drifts away from limits and singularities
+// (IkParams of jaco_kinematics). The state is the last command; start() sets it to measured joints
+// at rest. A set-point that is reached within the limits is met exactly: forward(command) = T.
+// The hand is j2s7s300_end_effector, its pose and twist are in j2s7s300_link_base; m, rad, s.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -37,12 +38,13 @@ struct FollowerParams {
   void validate() const;
 };
 
-// Share of the velocity limits that a change of branch may use: the hand leaves its path meanwhile.
+// Share of the velocity limits for a change of branch. Ours: the hand leaves its path meanwhile, so
+// it is slow.
 inline constexpr double kBranchChangeSpeed = 0.25;
 
-// Speed of the self-motion toward a better posture, norm of all joints; slower where the
-// acceleration limit asks for it, so that the drift can start and end within one period.
-inline constexpr double kNullSpaceSpeed = 0.04;  // [rad/s]
+// [rad/s] Speed of the null-space drift, norm of all joints; less where the acceleration limit
+// asks for it. Ours: README of jaco_kinematics says what it gains.
+inline constexpr double kNullSpaceSpeed = 0.04;
 
 struct PoseSetpoint {
   Eigen::Isometry3d hand_in_base = Eigen::Isometry3d::Identity();
@@ -53,17 +55,17 @@ struct PoseSetpoint {
 enum class GoalKind {
   kExact,          // forward(goal) is the set-point
   kNearest,        // out of reach or limits, the goal is the nearest pose
-  kJumpRefused,    // a change of branch refused, the goal creeps toward the set-point
+  kJumpRefused,    // a change of branch refused, the goal takes damped steps to the set-point
   kChangesBranch,  // on the way to another branch, slowly
   kRest            // hold
 };
 
 struct FollowerStep {
   GoalKind goal = GoalKind::kRest;
-  LimitedStep motion;                // the command, and what slowed it
+  LimitedStep motion;                // the command, and the limit that shaped it
   double position_deviation = 0;     // [m], set-point to forward(command); 0 when holding
   double orientation_deviation = 0;  // [rad]
-  int jump_joint = -1;               // the joint whose jump was refused, or farthest to go
+  int jump_joint = -1;               // whose jump was refused, or which is farthest from its goal
   double jump = 0;                   // [rad]
 };
 
@@ -88,7 +90,7 @@ class SetpointFollower {
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
   jaco_kinematics::IkParams ik_params(double dt) const;
-  void forget_set_points();
+  void forget_setpoints();
   LimitedStep resolved_rate_step(const PoseSetpoint& setpoint, const MotionState& goal,
                                  double dt) const;
   JointVector goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal, double dt) const;
@@ -103,7 +105,7 @@ class SetpointFollower {
   std::optional<Eigen::Isometry3d> last_pose_;  // the last set-point, none after a hold
   double refused_for_ = 0;                      // [s], a change of branch, without a break
   bool changes_branch_ = false;
-  bool transfers_ = false;  // toward a set-point that was far from the one before
+  bool transfers_ = false;  // on the way to a set-point that was far from the one before
 };
 
 }  // namespace prf_control
