@@ -108,6 +108,8 @@ TEST_F(Reconfigurable, RefusesAChangeAsAWhole) {
   const auto config = latched<dynamic_reconfigure::Config>("parameter_updates");
   ASSERT_TRUE(config);
   EXPECT_EQ(values_of(*config), applied_.back());
+  ASSERT_TRUE(set({{"gain", 2.0}}));
+  EXPECT_EQ(applied_.back(), (Values{{"gain", 2.0}, {"wait", 0.4}}));
 }
 
 }  // namespace
