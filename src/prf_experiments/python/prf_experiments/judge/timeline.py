@@ -18,7 +18,8 @@ GAP = judge.SECOND // 2  # what happens again within it is one event
 OUT_OF_VIEW = judge.SECOND // 5  # shorter gaps between detections are not told
 MOST_OF_A_KIND = 25  # events; what exceeds it is counted only
 COUNTS_OF_NO_LOSS = {"ticks", "images", "tags", "plans sent", "measurements accepted",
-                     "starts from measured joints"}
+                     "starts from measured joints",
+                     "answers"}  # plans sent, in older bags
 
 
 @dataclass(frozen=True)
