@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// inverse() with each result as the seed of the next pose, as a controller calls it.
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "expect_meets.hpp"
+#include "jaco_kinematics/jaco_kinematics.hpp"
+#include "random_joints.hpp"
+
+namespace jaco_kinematics {
+namespace {
+
+// The shortest joint motion that changes the pose alike, to first order.
+double least_motion(const JointVector& q, const Eigen::Isometry3d& to) {
+  const Eigen::Isometry3d from = forward(q);
+  const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
+  Eigen::Matrix<double, 6, 1> change;
+  change << to.translation() - from.translation(), turn.angle() * turn.axis();
+  return jacobian(q).completeOrthogonalDecomposition().solve(change).norm();
+}
+
+// Moves to the next pose of a path, with the last result as seed. Beside the least motion there is
+// room for its second order next to singularities and for the pull away from limits; the largest
+// found is 1.18 times the least, and 0.005 rad more where shoulder and wrist are singular at once.
+void follow(const Eigen::Isometry3d& pose, JointVector* q) {
+  const IkResult result = inverse(pose, *q);
+  ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
+  ASSERT_LE((result.q - *q).norm(), 1.2 * least_motion(*q, pose) + 0.001);
+  *q = result.q;
+}
+
+// Smooth random joint paths.
+TEST(JacoInverse, IsContinuousAlongSmoothPaths) {
+  constexpr int kSteps = 1000;
+  const JointLimits& limits = jaco_joint_limits();
+  std::mt19937 generator(13);
+  std::uniform_real_distribution<> phase(0.0, 2.0 * M_PI);
+  for (int path = 0; path < 20; ++path) {
+    JointVector centre = random_joints(&generator);
+    JointVector start;
+    for (int i = 0; i < 7; ++i) {
+      start[i] = phase(generator);
+      if (std::isinf(limits.upper[i])) continue;
+      // Well inside limits, the elbow bent: what follows is no question of reach.
+      const double side = centre[i] - M_PI;
+      centre[i] = M_PI + std::copysign(i == 3 ? 1.6 : std::min(0.9, std::abs(side)), side);
+    }
+    const auto joints_at = [&](int step) {
+      const double t = 2.0 * M_PI * step / kSteps;
+      return JointVector(centre.array() + 0.5 * (start.array() + t).sin());
+    };
+    JointVector q = joints_at(0);
+    for (int step = 1; step <= kSteps; ++step) {
+      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &q))
+          << "path " << path << " step " << step;
+    }
+  }
+}
+
+// The given path moves no joint by more than 0.0045 rad a step.
+TEST(JacoInverse, PassesTheShouldersSingularityWithoutAJump) {
+  constexpr int kSteps = 400;
+  constexpr double kTwoSteps = 0.009;  // [rad]
+  // [rad] Shoulder and wrist are nearly singular at once on one path (0.024); a change of branch
+  // turns a joint by much more.
+  constexpr double kLargest = 0.025;
+  int passed = 0;
+  int within_two_steps = 0;
+  std::mt19937 generator(14);
+  for (int path = 0; path < 50; ++path) {
+    JointVector centre = random_joints(&generator);
+    centre[1] = M_PI;
+    centre[3] = M_PI + 1.6;
+    centre[5] = M_PI + 0.9;
+    const auto joints_at = [&](int step) {
+      JointVector q = centre;
+      q[1] += 0.8 * (2.0 * step / kSteps - 1.0);
+      q[3] += 0.3 * std::sin(6.0 * step / kSteps);
+      return q;
+    };
+    JointVector q = joints_at(0);
+    double largest = 0.0;
+    for (int step = 1; step <= kSteps; ++step) {
+      const JointVector before = q;
+      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &q))
+          << "path " << path << " step " << step;
+      largest = std::max(largest, (q - before).cwiseAbs().maxCoeff());
+    }
+    EXPECT_LE(largest, kLargest) << "path " << path;
+    if (largest <= kTwoSteps) ++within_two_steps;
+    if (q[1] > M_PI + 0.1) ++passed;
+  }
+  EXPECT_GE(within_two_steps, 39);
+  EXPECT_GE(passed, 45);
+}
+
+TEST(JacoInverse, MovesAwayFromALimitWhileThePoseStands) {
+  JointVector q = ready_joints();
+  q[1] = jaco_joint_limits().lower[1] + 0.05;
+  const Eigen::Isometry3d pose = forward(q);
+  const double before = q[1];
+  for (int tick = 0; tick < 200; ++tick) {
+    const IkResult result = inverse(pose, q);
+    ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
+    q = result.q;
+  }
+  EXPECT_GT(q[1], before + 0.05);
+}
+
+// Each result is the next seed, the pose stands.
+void drift(int calls, JointVector* q) {
+  IkParams params;
+  params.limit_weight = 0.0;
+  const Eigen::Isometry3d pose = forward(*q);
+  for (int call = 0; call < calls; ++call) {
+    const IkResult result = inverse(pose, *q, params);
+    ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
+    ASSERT_LE((result.q - *q).norm(), params.null_space_step + 1e-6) << "call " << call;
+    *q = result.q;
+  }
+}
+
+TEST(JacoInverse, DriftsFromSingularitiesAndLimitsInSmallSteps) {
+  constexpr int kCalls = 4000;
+  for (const int joint : {1, 5}) {
+    const double range = jaco_joint_limits().upper[joint] - M_PI;
+    for (const double side : {-1.0, 1.0}) {
+      JointVector q = ready_joints();
+      q[joint] = M_PI + 0.2 * side;
+      ASSERT_NO_FATAL_FAILURE(drift(kCalls, &q));
+      EXPECT_GT(side * (q[joint] - M_PI), 0.35) << "joint " << joint + 1 << " side " << side;
+      q = ready_joints();
+      q[joint] = M_PI + side * (range - 0.2);
+      ASSERT_NO_FATAL_FAILURE(drift(kCalls, &q));
+      EXPECT_LT(side * (q[joint] - M_PI), range - 0.35)
+          << "joint " << joint + 1 << " side " << side;
+    }
+  }
+}
+
+TEST(JacoInverse, DoesNotDriftInTheMiddle) {
+  JointVector q = ready_joints();
+  ASSERT_NO_FATAL_FAILURE(drift(100, &q));
+  EXPECT_LT((q - ready_joints()).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace jaco_kinematics
