@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The follower keeps every limit for random set-points, and refuses impossible parameters.
+// The follower keeps every limit for random set-points; impossible parameters are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "follower_limits.hpp"
+#include "prf_control/arm_controller.hpp"
 #include "prf_control/setpoint_follower.hpp"
 
 namespace prf_control {
@@ -137,6 +138,27 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
   }
   EXPECT_NE(refusal(&FollowerParams::velocity_scale, 1.01).find("velocity_scale"),
             std::string::npos);
+}
+
+TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
+  const auto refusal = [](const ArmControllerParams& bad) -> std::string {
+    try {
+      ArmController controller(bad);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const ArmControllerParams good{params(), 0.2, 0.3, "joint_"};
+  EXPECT_EQ(refusal(good), "");
+  ArmControllerParams bad = good;
+  bad.max_tracking_error = std::nan("");
+  EXPECT_NE(refusal(bad).find("max_tracking_error"), std::string::npos);
+  for (const double wait : {0.0, -1.0, std::nan(""), 11.0}) {
+    bad = good;
+    bad.max_wait = wait;
+    EXPECT_NE(refusal(bad).find("max_wait"), std::string::npos) << wait;
+  }
 }
 
 }  // namespace
