@@ -203,7 +203,7 @@ class ArmControllerNode(unittest.TestCase):
                  'velocity_scale = 1.5, must be > 0 and <= 1'),
                 ({'velocity_scale': 0.3, 'acceleration': -1.0},
                  'acceleration = -1, must be > 0 and <= 100 rad/s^2'),
-                ({'velocity_scale': 0.3, 'acceleration': float('nan')}, 'acceleration is nan'),
+                ({'velocity_scale': 0.3, 'acceleration': float('nan')}, 'acceleration = nan, must be finite'),
                 ({'velocity_scale': 0.3, 'damping': 0.2}, 'damping cannot be changed')):
             with self.assertRaises(rospy.ServiceException) as refusal:
                 self.tune(**numbers)
