@@ -9,6 +9,7 @@
 #include <std_msgs/Header.h>
 
 #include <algorithm>
+#include <prf_ros/conversions.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,15 +53,9 @@ inline prf_msgs::TagDetectionArray to_message(const std_msgs::Header& header,
       message.corners_px[2 * i] = detection.corners[i].x();
       message.corners_px[2 * i + 1] = detection.corners[i].y();
     }
-    const Eigen::Vector3d position = detection.pose.marker_in_camera.translation();
-    const Eigen::Quaterniond orientation(detection.pose.marker_in_camera.linear());
-    message.pose.pose.position.x = position.x();
-    message.pose.pose.position.y = position.y();
-    message.pose.pose.position.z = position.z();
-    message.pose.pose.orientation.x = orientation.x();
-    message.pose.pose.orientation.y = orientation.y();
-    message.pose.pose.orientation.z = orientation.z();
-    message.pose.pose.orientation.w = orientation.w();
+    const Eigen::Isometry3d& pose = detection.pose.marker_in_camera;
+    message.pose.pose.position = prf_ros::to_point(pose.translation());
+    message.pose.pose.orientation = prf_ros::to_message(Eigen::Quaterniond(pose.linear()));
     Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data()) =
         detection.pose.covariance;
     array.detections.push_back(message);
@@ -73,9 +68,8 @@ inline geometry_msgs::TransformStamped to_transform(const std_msgs::Header& head
   geometry_msgs::TransformStamped transform;
   transform.header = header;
   transform.child_frame_id = "tag_" + std::to_string(detection.id);
-  transform.transform.translation.x = detection.pose.pose.position.x;
-  transform.transform.translation.y = detection.pose.pose.position.y;
-  transform.transform.translation.z = detection.pose.pose.position.z;
+  transform.transform.translation =
+      prf_ros::to_vector3(prf_ros::to_core(detection.pose.pose.position));
   transform.transform.rotation = detection.pose.pose.orientation;
   return transform;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cv_bridge/cv_bridge.h>
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_msgs/topics.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <prf_ros/conversions.hpp>
 #include <prf_ros/private_parameters.hpp>
 #include <set>
 #include <stdexcept>
@@ -19,41 +21,42 @@ namespace prf_perception {
 namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
+namespace topics = prf_msgs::topics;
 
 class TagDetectorNode {
  public:
   TagDetectorNode(ros::NodeHandle node, const TagDetectorNodeParams& params)
       : params_(params),
         detector_(params.detector),
-        join_(static_cast<std::int64_t>(params.info_wait * 1e9)) {
+        join_(prf_core::from_seconds(params.info_wait)) {
     const auto hints = ros::TransportHints().tcpNoDelay();
     updater_.setHardwareID("none");
     updater_.add("images", this, &TagDetectorNode::diagnose);
     info_subscriber_ =
-        node.subscribe("camera/camera_info", 100, &TagDetectorNode::on_info, this, hints);
+        node.subscribe(topics::kCameraCameraInfo, 100, &TagDetectorNode::on_info, this, hints);
     image_subscriber_ =
-        node.subscribe("camera/image_raw", 10, &TagDetectorNode::on_image, this, hints);
-    // After subscribing: who sees this publisher may start, nothing will be missed.
-    publisher_ = node.advertise<prf_msgs::TagDetectionArray>("tag_detections", 100);
+        node.subscribe(topics::kCameraImageRaw, 10, &TagDetectorNode::on_image, this, hints);
+    // Advertised last: whoever sees this publisher may send, both topics are subscribed.
+    publisher_ = node.advertise<prf_msgs::TagDetectionArray>(topics::kTagDetections, 100);
   }
 
  private:
   using Join = StampJoin<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
   void on_image(const sensor_msgs::ImageConstPtr& image) {
-    if (join_.push_first(static_cast<std::int64_t>(image->header.stamp.toNSec()), image)) {
+    if (join_.push_first(prf_ros::to_core(image->header.stamp), image)) {
       ROS_WARN("image stamps went back to %.3f s: new run", image->header.stamp.toSec());
       updater_.force_update();
     }
-    answer();
+    detect_joined();
   }
 
   void on_info(const sensor_msgs::CameraInfoConstPtr& info) {
-    join_.push_second(static_cast<std::int64_t>(info->header.stamp.toNSec()), info);
-    answer();
+    join_.push_second(prf_ros::to_core(info->header.stamp), info);
+    detect_joined();
   }
 
-  void answer() {
+  void detect_joined() {
     while (const auto joined = join_.pop()) {
       const std_msgs::Header& header = joined->first->header;
       std::vector<TagDetection> found;
@@ -96,7 +99,7 @@ class TagDetectorNode {
         transforms.push_back(to_transform(array.header, detection));
       } else {
         ++duplicates_;
-        ROS_WARN_THROTTLE(1.0, "tag id %d is seen more than once in an image", detection.id);
+        ROS_WARN_THROTTLE(1.0, "tag id %d is more than once in an image", detection.id);
       }
     }
     if (!transforms.empty()) broadcaster_.sendTransform(transforms);

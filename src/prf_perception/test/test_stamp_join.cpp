@@ -12,9 +12,9 @@ namespace prf_perception {
 namespace {
 
 using Join = StampJoin<std::string, int>;
-constexpr Join::Nanoseconds kMs = 1'000'000;
+constexpr prf_core::Duration kMs = std::chrono::milliseconds(1);
 
-std::vector<std::string> answers(Join& join) {
+std::vector<std::string> joined_of(Join& join) {
   std::vector<std::string> result;
   while (auto joined = join.pop()) {
     result.push_back(joined->first + (joined->second ? std::to_string(*joined->second) : "-"));
@@ -25,31 +25,31 @@ std::vector<std::string> answers(Join& join) {
 TEST(StampJoin, PairsEqualStampsInEitherOrder) {
   Join join(300 * kMs);
   join.push_first(10 * kMs, "a");
-  EXPECT_TRUE(answers(join).empty());
+  EXPECT_TRUE(joined_of(join).empty());
   join.push_second(10 * kMs, 1);
-  EXPECT_EQ(answers(join), std::vector<std::string>{"a1"});
+  EXPECT_EQ(joined_of(join), std::vector<std::string>{"a1"});
   join.push_second(20 * kMs, 2);
   join.push_first(20 * kMs, "b");
-  EXPECT_EQ(answers(join), std::vector<std::string>{"b2"});
+  EXPECT_EQ(joined_of(join), std::vector<std::string>{"b2"});
 }
 
-TEST(StampJoin, AnswersWithoutPartnerOnceTheOtherStreamIsPast) {
+TEST(StampJoin, JoinsNothingOnceTheOtherStreamIsPast) {
   Join join(300 * kMs);
   join.push_first(10 * kMs, "a");
   join.push_second(20 * kMs, 2);
-  EXPECT_EQ(answers(join), std::vector<std::string>{"a-"});
+  EXPECT_EQ(joined_of(join), std::vector<std::string>{"a-"});
 }
 
-TEST(StampJoin, GivesUpOnASilentPartnerAfterItsPatience) {
+TEST(StampJoin, GivesUpOnASilentPartnerAfterItsMaxWait) {
   Join join(300 * kMs);
-  join.push_first(0, "a");
+  join.push_first(0 * kMs, "a");
   join.push_first(300 * kMs, "b");
-  EXPECT_TRUE(answers(join).empty());
+  EXPECT_TRUE(joined_of(join).empty());
   join.push_first(301 * kMs, "c");
-  EXPECT_EQ(answers(join), std::vector<std::string>{"a-"});
+  EXPECT_EQ(joined_of(join), std::vector<std::string>{"a-"});
 }
 
-TEST(StampJoin, GivesTheSameAnswersInAnyInterleaving) {
+TEST(StampJoin, JoinsTheSameInAnyInterleaving) {
   std::mt19937 random(5);
   std::vector<std::string> expected;
   for (int trial = 0; trial < 200; ++trial) {
@@ -68,7 +68,7 @@ TEST(StampJoin, GivesTheSameAnswersInAnyInterleaving) {
         if (second % 7 != 3) join.push_second(second * 33 * kMs, second);  // every seventh is lost
         ++second;
       }
-      for (const auto& answer : answers(join)) found.push_back(answer);
+      for (const auto& pair : joined_of(join)) found.push_back(pair);
     }
     if (trial == 0) expected = found;
     EXPECT_EQ(found, expected);
@@ -83,16 +83,16 @@ TEST(StampJoin, StartsANewRunWhenStampsGoBack) {
     Join join(300 * kMs);
     join.push_first(9000 * kMs, "old");
     join.push_second(9100 * kMs, 9);
-    EXPECT_EQ(answers(join), std::vector<std::string>{"old-"});
+    EXPECT_EQ(joined_of(join), std::vector<std::string>{"old-"});
     if (partner_first) {
       EXPECT_TRUE(join.push_second(5 * kMs, 1));
       EXPECT_TRUE(join.push_first(5 * kMs, "new"));
     } else {
       EXPECT_TRUE(join.push_first(5 * kMs, "new"));
-      EXPECT_TRUE(answers(join).empty());
+      EXPECT_TRUE(joined_of(join).empty());
       EXPECT_TRUE(join.push_second(5 * kMs, 1));
     }
-    EXPECT_EQ(answers(join), std::vector<std::string>{"new1"});
+    EXPECT_EQ(joined_of(join), std::vector<std::string>{"new1"});
   }
 }
 

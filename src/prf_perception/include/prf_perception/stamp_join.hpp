@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins two streams by equal stamps, whatever the order in which the streams arrive.
 //
-// Stamps within a stream rise. Every message of the first stream gets exactly one answer, in
-// order: the message of the second stream with the same stamp, or nothing once it is certain that
-// none will come (the second stream is past that stamp), or after `patience` of the first stream.
+// Stamps within a stream rise. Every message of the first stream comes out exactly once, in order:
+// with the message of the second stream of the same stamp, or alone once it is certain that none
+// will come (the second stream is past that stamp), or after `max_wait` of the first stream. Unlike
+// prf_core/stream_joiner.hpp it waits for the second stream at every message, also when the second
+// stream has just been silent: an image without camera_info is lost.
 // A stamp more than kNewRun behind the newest of its stream starts a new run.
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <deque>
 #include <optional>
+#include <prf_core/time.hpp>
 #include <utility>
 
 namespace prf_perception {
@@ -18,35 +20,36 @@ namespace prf_perception {
 template <typename First, typename Second>
 class StampJoin {
  public:
-  using Nanoseconds = std::int64_t;
-  static constexpr Nanoseconds kNewRun = 1'000'000'000;
+  static constexpr prf_core::Duration kNewRun = std::chrono::seconds(1);
 
   struct Joined {
     First first;
     std::optional<Second> second;
   };
 
-  explicit StampJoin(Nanoseconds patience) : patience_(patience) {}
+  explicit StampJoin(prf_core::Duration max_wait) : max_wait_(max_wait) {}
 
   // Both return true when the stamp began a new run; what waited from the old one is dropped.
-  bool push_first(Nanoseconds stamp, First value) { return push(firsts_, seconds_, stamp, value); }
-  bool push_second(Nanoseconds stamp, Second value) {
+  bool push_first(prf_core::Stamp stamp, First value) {
+    return push(firsts_, seconds_, stamp, value);
+  }
+  bool push_second(prf_core::Stamp stamp, Second value) {
     const bool new_run = push(seconds_, firsts_, stamp, value);
     if (seconds_.queue.size() > kMaxSeconds) seconds_.queue.pop_front();
     return new_run;
   }
 
-  // The next answer, as long as there is one that no later message can change.
+  // The oldest message of the first stream when no later message can change what it is joined with.
   [[nodiscard]] std::optional<Joined> pop() {
     if (firsts_.queue.empty()) return std::nullopt;
-    const Nanoseconds stamp = firsts_.queue.front().first;
+    const prf_core::Stamp stamp = firsts_.queue.front().first;
     auto& seconds = seconds_.queue;
     while (!seconds.empty() && seconds.front().first < stamp) seconds.pop_front();
 
     std::optional<Second> match;
     if (!seconds.empty() && seconds.front().first == stamp) {
       match = seconds.front().second;
-    } else if (seconds.empty() && *firsts_.last - stamp <= patience_) {
+    } else if (seconds.empty() && *firsts_.last - stamp <= max_wait_) {
       return std::nullopt;
     }
     Joined joined{std::move(firsts_.queue.front().second), std::move(match)};
@@ -59,12 +62,12 @@ class StampJoin {
 
   template <typename T>
   struct Stream {
-    std::deque<std::pair<Nanoseconds, T>> queue;
-    std::optional<Nanoseconds> last;
+    std::deque<std::pair<prf_core::Stamp, T>> queue;
+    std::optional<prf_core::Stamp> last;
   };
 
   template <typename Own, typename Other>
-  static bool push(Stream<Own>& own, Stream<Other>& other, Nanoseconds stamp, Own& value) {
+  static bool push(Stream<Own>& own, Stream<Other>& other, prf_core::Stamp stamp, Own& value) {
     const bool new_run = own.last && stamp < *own.last - kNewRun;
     if (new_run) {
       own.queue.clear();
@@ -77,7 +80,7 @@ class StampJoin {
     return new_run;
   }
 
-  Nanoseconds patience_;
+  prf_core::Duration max_wait_;
   Stream<First> firsts_;
   Stream<Second> seconds_;
 };
