@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "elte_planner/edit_problem.hpp"
@@ -29,15 +31,16 @@ double median_microseconds(Solve&& solve, int repetitions) {
   return times[kBatches / 2];
 }
 
-void print(const char* name, Eigen::Index nodes, double radius, double microseconds, double error,
-           bool last = false) {
-  std::printf(
-      "  {\"solver\": \"%s\", \"nodes\": %d, \"radius_m\": %g, \"median_us\": %.6g, "
-      "\"max_relative_error\": %.3g}%s\n",
-      name, static_cast<int>(nodes), radius, microseconds, error, last ? "" : ",");
+nlohmann::json row(const char* solver, Eigen::Index nodes, double radius, double microseconds,
+                   double error) {
+  return {{"solver", solver},
+          {"nodes", nodes},
+          {"radius_m", radius},
+          {"median_us", microseconds},
+          {"max_relative_error", error}};
 }
 
-void end_point(Eigen::Index nodes, double radius) {
+void end_point(Eigen::Index nodes, double radius, nlohmann::json& rows) {
   std::mt19937 random(1);
   const Eigen::MatrixXd zeta = random_demonstration(nodes, 3, random);
   Eigen::VectorXd goal = zeta.row(nodes - 1).transpose();
@@ -56,12 +59,12 @@ void end_point(Eigen::Index nodes, double radius) {
   expected.row(nodes - 1) = end.transpose();
   expected = reference.solve(2, nodes - 1, expected);
   const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
-  print("elte", nodes, radius, time, (plan - expected).cwiseAbs().maxCoeff() / scale);
-  print("elte gains, once", nodes, radius, gains, 0.0);
+  rows.push_back(row("elte", nodes, radius, time, (plan - expected).cwiseAbs().maxCoeff() / scale));
+  rows.push_back(row("elte gains, once", nodes, radius, gains, 0.0));
 }
 
 // Half of a drawn path is executed; balls around a detour keep the rest off an obstacle.
-void obstacle() {
+nlohmann::json obstacle() {
   constexpr Eigen::Index kNodes = 100;
   EditProblem problem;
   problem.zeta.resize(kNodes, 2);
@@ -79,17 +82,17 @@ void obstacle() {
   EditSolution solution;
   const double time = median_microseconds([&] { solver.solve(problem, {}, solution); }, 200);
   std::fprintf(stderr, "obstacle case: %d active facets\n", solution.active_facets);
-  print("elte, 2-D obstacle balls (KKT residual)", kNodes, 0.0, time, solution.kkt_residual, true);
+  return row("elte, 2-D obstacle balls (KKT residual)", kNodes, 0.0, time, solution.kkt_residual);
 }
 
 }  // namespace
 
 int main() {
-  std::printf("[\n");
+  nlohmann::json rows = nlohmann::json::array();
   for (const Eigen::Index nodes : {50, 100, 200, 1000, 10000}) {
-    for (const double radius : {0.0, 0.02}) end_point(nodes, radius);
+    for (const double radius : {0.0, 0.02}) end_point(nodes, radius, rows);
   }
-  obstacle();
-  std::printf("]\n");
+  rows.push_back(obstacle());
+  std::cout << rows.dump(1) << "\n";
   return 0;
 }

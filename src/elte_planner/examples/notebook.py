@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ELTE in cells, to be run as a script or cell by cell in an editor that knows `# %%`."""
 # %% A demonstration: (T, d) positions, here a drawn wave of 50 nodes in the plane.
-import elte_planner
 import numpy as np
+
+import elte_planner
 
 s = np.linspace(0.0, 1.0, 50)
 zeta = np.column_stack([s, 0.2 * np.sin(2.0 * np.pi * s)])

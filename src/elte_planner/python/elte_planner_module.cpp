@@ -272,18 +272,20 @@ Demonstration demonstration_from(const Eigen::VectorXd& times, const Eigen::Matr
 
 void bind_demonstration(py::module_& m) {
   py::class_<Demonstration>(m, "Demonstration", "Timed poses of a demonstrated skill.")
-      .def(py::init(&demonstration_from), py::arg("times"), py::arg("positions"),
-           py::arg("quaternions"), py::arg("frame"), py::arg("child_frame"), py::arg("target"),
-           py::arg("notes") = Demonstration::Notes{},
-           "times: (N,), s from 0. positions: (N, 3), m. quaternions: (N, 4), x y z w. target:\n"
-           "(7,), position and quaternion of the target in frame. notes: further lines of the file.")
+      .def(
+          py::init(&demonstration_from), py::arg("times"), py::arg("positions"),
+          py::arg("quaternions"), py::arg("frame"), py::arg("child_frame"), py::arg("target"),
+          py::arg("notes") = Demonstration::Notes{},
+          "times: (N,), s from 0. positions: (N, 3), m. quaternions: (N, 4), x y z w. target:\n"
+          "(7,), position and quaternion of the target in frame. notes: further lines of the file.")
       .def_property_readonly(
           "target", [](const Demonstration& d) { return row_from(d.target()); },
           "(7,), x y z qx qy qz qw.")
       .def_property_readonly(
           "goal_in_target", [](const Demonstration& d) { return row_from(d.goal_in_target()); },
           "(7,), last pose in the target's frame.")
-      .def_property_readonly("notes", &Demonstration::notes, "dict of the other lines `# key: value`.")
+      .def_property_readonly("notes", &Demonstration::notes,
+                             "dict of the other lines `# key: value`.")
       .def_property_readonly("frame", &Demonstration::frame)
       .def_property_readonly("child_frame", &Demonstration::child_frame)
       .def_property_readonly("positions", &Demonstration::positions, "(N, 3), m.")
@@ -327,9 +329,10 @@ void bind_demonstration(py::module_& m) {
       "The mean of several demonstrations of one skill, relative to their targets, as one.");
   m.def("load_demonstration", &load_demonstration, py::arg("path"),
         "Read the CSV form; raises ValueError with file, line, column, value and bound.");
-  m.def("save_demonstration", &save_demonstration, py::arg("demonstration"), py::arg("path"),
-        "Write the CSV form: times in microseconds, poses to nine decimals. Raises ValueError when\n"
-        "it cannot be written or would not be read back.");
+  m.def(
+      "save_demonstration", &save_demonstration, py::arg("demonstration"), py::arg("path"),
+      "Write the CSV form: times in microseconds, poses to nine decimals. Raises ValueError when\n"
+      "it cannot be written or would not be read back.");
 }
 
 }  // namespace

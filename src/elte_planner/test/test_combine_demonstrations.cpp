@@ -28,7 +28,8 @@ Demonstration arch(double height) {
 Demonstration in_place_of(const Demonstration& d, const Pose& target) {
   const Eigen::Isometry3d motion = target.isometry() * d.target().isometry().inverse();
   std::vector<TimedPose> samples = d.samples();
-  for (TimedPose& sample : samples) sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
+  for (TimedPose& sample : samples)
+    sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
   return Demonstration(samples, "arm", "hand", target);
 }
 

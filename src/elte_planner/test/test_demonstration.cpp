@@ -50,8 +50,8 @@ struct SavedDemonstration : testing::Test {
 };
 
 TEST_F(SavedDemonstration, IsReadBackWithItsNotes) {
-  const Demonstration made = parsed("# operator: M. M.\n# when: 12:30\n" +
-                                    (std::string(kMetadata) + kHeader + kRows));
+  const Demonstration made =
+      parsed("# operator: M. M.\n# when: 12:30\n" + (std::string(kMetadata) + kHeader + kRows));
   EXPECT_EQ(made.notes(), (Demonstration::Notes{{"operator", "M. M."}, {"when", "12:30"}}));
   save_demonstration(made.resampled_by_arc_length(7), path);
   const Demonstration read = load_demonstration(path);

@@ -5,11 +5,12 @@ import subprocess
 import tempfile
 import unittest
 
-import elte_planner
 import numpy as np
 import rosbag
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped
+
+import elte_planner
 from prf_msgs.msg import SkillTrajectory
 
 COMMAND = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python", "commands", "elte_edit")
@@ -86,7 +87,7 @@ class Bag(unittest.TestCase):
     def test_is_edited_from_the_shell(self):
         run = subprocess.run(
             ["/usr/bin/python3", COMMAND, self.path, "--topic", "hand", "--end", "0.4", "0.3", "0.3"],
-            text=True, timeout=60, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+            text=True, timeout=60, capture_output=True, check=False)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("solved: 50 nodes, end 0 m", run.stdout)
 

@@ -118,8 +118,7 @@ TEST(StepBound, IsRefusedByPlannersThatKeepNone) {
   EXPECT_THROW((void)make_skill_planner("elte", zeta, {}, 0.0), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(Planners, SkillPlannerTest,
-                         testing::ValuesIn(planner_names()));
+INSTANTIATE_TEST_SUITE_P(Planners, SkillPlannerTest, testing::ValuesIn(planner_names()));
 
 Eigen::MatrixXd corner() {
   Eigen::MatrixXd path(100, 2);

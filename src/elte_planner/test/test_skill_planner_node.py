@@ -12,6 +12,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
+
 from prf_msgs.msg import ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
 
 FRAME = "j2s7s300_link_base"
@@ -100,6 +101,17 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(kept.status, SkillTrajectory.KEPT)
         self.assertEqual(kept.poses, moved.poses)
         self.assertIn("lost", kept.message)
+
+    def test_4_takes_a_forecast_that_is_refused_as_lost(self):
+        (before,) = self.plans_after(forecast(7.2), progress(7.26, 7.2))
+        for stamp, spoil in ((7.3, lambda f: setattr(f.predictions[1].pose.orientation, "w", 1.01)),
+                             (7.4, lambda f: setattr(f.predictions[1], "horizon", rospy.Duration(2))),
+                             (7.5, lambda f: f.predictions.pop(0)),
+                             (7.6, lambda f: setattr(f, "status", 9))):
+            bad = forecast(stamp, y=0.2)
+            spoil(bad)
+            (kept,) = self.plans_after(bad, progress(stamp + 0.06, stamp))
+            self.assertEqual((kept.status, kept.poses), (SkillTrajectory.KEPT, before.poses))
 
     def test_5_drops_messages_of_another_frame(self):
         self.assertEqual(

@@ -14,7 +14,8 @@ using Samples = std::vector<TimedPose>;
 
 Samples moved(const Demonstration& demonstration, const Eigen::Isometry3d& motion) {
   Samples samples = demonstration.samples();
-  for (TimedPose& sample : samples) sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
+  for (TimedPose& sample : samples)
+    sample.pose = prf_core::pose_from(motion * sample.pose.isometry());
   return samples;
 }
 

@@ -177,7 +177,8 @@ void write(const Demonstration& demonstration, std::ostream& out) {
     out << '\n';
   };
   out << std::fixed << std::setprecision(9);
-  for (const auto& [key, value] : demonstration.notes()) out << "# " << key << ": " << value << '\n';
+  for (const auto& [key, value] : demonstration.notes())
+    out << "# " << key << ": " << value << '\n';
   out << "# frame: " << demonstration.frame() << '\n'
       << "# child_frame: " << demonstration.child_frame() << "\n# target_pose: ";
   numbers(demonstration.target(), " ");
@@ -204,8 +205,9 @@ void save_demonstration(const Demonstration& demonstration, const std::string& p
   std::stringstream text;
   write(demonstration, text);
   if (read_demonstration(text, path).notes() != demonstration.notes()) {
-    throw std::invalid_argument(path + ": notes cannot hold line breaks, blanks at their ends or a ':' "
-                                       "in the key");
+    throw std::invalid_argument(path +
+                                ": notes cannot hold line breaks, blanks at their ends or a ':' "
+                                "in the key");
   }
   std::ofstream file(path);
   file << text.str();

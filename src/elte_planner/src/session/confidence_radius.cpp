@@ -34,6 +34,8 @@ const Eigen::MatrixXd& cached_directions(Eigen::Index dimensions) {
   return directions[dimensions - 1];
 }
 
+// P(chi_d <= x) for d <= 3, which is prf_core::chi_square_cdf(d, x^2) in closed form: it takes a
+// twentieth of Boost's time, and one plan needs it about a hundred thousand times.
 double chi_distribution(Eigen::Index dimensions, double x) {
   if (dimensions == 2) return -std::expm1(-0.5 * x * x);
   const double half_normal = std::erf(x * M_SQRT1_2);

@@ -7,7 +7,7 @@
 namespace elte_planner {
 
 CurrentSkill::CurrentSkill(const SessionParams& params, const std::string& demonstration,
-                             const std::string& frame)
+                           const std::string& frame)
     : params_(params), first_(demonstration), frame_(frame) {
   load(first_);
 }

@@ -57,7 +57,7 @@ void EditSolver::Workspace::solve_from_here(EditSolution& solution) {
   }
   solution.status = result == SolveResult::kDone         ? EditStatus::kSolved
                     : result == SolveResult::kInfeasible ? EditStatus::kInfeasible
-                                                      : EditStatus::kIterationLimit;
+                                                         : EditStatus::kIterationLimit;
   if (result != SolveResult::kDone) {
     solution.y.resize(0, 0);
     if (solution.message.empty()) solution.message = "the active set did not settle";
@@ -260,7 +260,7 @@ bool EditSolver::Workspace::add_equalities(EditSolution& solution, SolveResult& 
 }
 
 EditSolver::Workspace::SolveResult EditSolver::Workspace::add_violated(int patience,
-                                                                   EditSolution& solution) {
+                                                                       EditSolution& solution) {
   Facet facet;
   double violation = 0.0;
   const int limit = solution.iterations + patience;
@@ -275,7 +275,7 @@ EditSolver::Workspace::SolveResult EditSolver::Workspace::add_violated(int patie
 // One constraint's way into the active set: full steps in primal and dual space, or as far as a
 // multiplier stays positive, after which its facet leaves.
 EditSolver::Workspace::SolveResult EditSolver::Workspace::enter(double violation,
-                                                            EditSolution& solution) {
+                                                                EditSolution& solution) {
   const bool node_only = std::isinf(problem_->max_step) && std::isinf(problem_->max_first_step);
   double multiplier = 0.0;
   for (;;) {

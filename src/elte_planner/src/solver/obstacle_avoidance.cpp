@@ -183,8 +183,7 @@ void AvoidanceProblem::validate() const {
                     "finite and > 0");
 }
 
-AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem,
-                                  const AvoidanceParams& params) {
+AvoidanceSolution avoid_obstacles(const AvoidanceProblem& problem, const AvoidanceParams& params) {
   problem.validate();
   return Avoidance(problem, params).solve();
 }

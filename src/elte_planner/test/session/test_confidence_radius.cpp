@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <prf_core/chi_square.hpp>
 #include <random>
 #include <stdexcept>
 
@@ -45,6 +46,10 @@ TEST(ConfidenceRadius, HoldsTheProbabilityAskedFor) {
 TEST(ConfidenceRadius, MatchesClosedForms) {
   // One dimension: 1.959964 standard deviations hold 95 %.
   EXPECT_NEAR(confidence_radius(Eigen::MatrixXd::Constant(1, 1, 0.04), 0.95), 0.2 * 1.959964, 1e-4);
+  for (const double p : {0.05, 0.5, 0.999}) {
+    const double expected = std::sqrt(prf_core::chi_square_quantile(1, p));
+    EXPECT_NEAR(confidence_radius(Eigen::MatrixXd::Ones(1, 1), p), expected, 1e-4 * expected);
+  }
   // Two equal dimensions: the ball is a square turned by 45 degrees, P = erf(r / 2 sigma)^2.
   const double radius = confidence_radius(Eigen::Matrix2d::Identity(), 0.8);
   EXPECT_NEAR(std::pow(std::erf(radius / 2.0), 2), 0.8, 1e-3);
