@@ -7,45 +7,32 @@
 #include <prf_msgs/TargetForecast.h>
 
 #include <prf_ros/conversions.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "elte_planner/current_skill.hpp"
 
 namespace elte_planner {
 
-inline Forecast forecast_from(const prf_msgs::TargetForecast& message) {
-  Forecast forecast{prf_ros::to_core(message.header.stamp).count(), TargetStatus::kNoTarget, {}};
-  switch (message.status) {
-    case prf_msgs::TargetForecast::TRACKING:
-      forecast.status = TargetStatus::kTracking;
-      break;
-    case prf_msgs::TargetForecast::COASTING:
-      forecast.status = TargetStatus::kCoasting;
-      break;
-    case prf_msgs::TargetForecast::LOST:
-      forecast.status = TargetStatus::kLost;
-      break;
-    default:
-      break;
+// The forecast and, when it is refused, the reason; then the target counts as lost.
+inline std::pair<prf_core::TargetForecast, std::string> forecast_from(
+    const prf_msgs::TargetForecast& message) {
+  try {
+    return {prf_ros::to_core(message), ""};
+  } catch (const std::invalid_argument& refusal) {
+    prf_core::TargetForecast lost;
+    lost.stamp = prf_ros::to_core(message.header.stamp);
+    lost.status = prf_core::TargetStatus::kLost;
+    return {lost, refusal.what()};
   }
-  for (const auto& prediction : message.predictions) {
-    // Upper left 3x3 of the row-major 6x6 over (position, velocity).
-    const Eigen::Map<const Eigen::Matrix3d, 0, Eigen::OuterStride<6>> covariance(
-        prediction.covariance.data());
-    forecast.predictions.push_back(
-        {prediction.horizon.toSec(),
-         {prf_ros::to_core(prediction.pose.position),
-          prf_ros::to_core(prediction.pose.orientation)},
-         covariance.transpose(),
-         prf_ros::to_core(prediction.twist.linear)});
-  }
-  return forecast;
 }
 
 inline Progress progress_from(const prf_msgs::ExecutionProgress& message) {
-  return {prf_ros::to_core(message.header.stamp).count(),
-          prf_ros::to_core(message.forecast_stamp).count(),
+  return {prf_ros::to_core(message.header.stamp),
+          prf_ros::to_core(message.forecast_stamp),
           static_cast<Eigen::Index>(message.frozen),
-          message.time_to_go.toSec(),
+          prf_ros::to_core(message.time_to_go),
           {message.demonstration, message.demonstration_switch}};
 }
 
@@ -66,9 +53,9 @@ inline std::uint8_t to_message(SkillStatus status) {
 // Everything but the plan.
 inline prf_msgs::SkillTrajectory header_for(const Progress& progress, const CurrentSkill& skill) {
   prf_msgs::SkillTrajectory message;
-  message.header.stamp = prf_ros::to_ros_time(prf_core::Stamp(progress.stamp));
+  message.header.stamp = prf_ros::to_ros_time(progress.stamp);
   message.header.frame_id = skill.session().demonstration().frame();
-  message.forecast_stamp = prf_ros::to_ros_time(prf_core::Stamp(progress.forecast_stamp));
+  message.forecast_stamp = prf_ros::to_ros_time(progress.forecast_stamp);
   message.demonstration = skill.demonstration();
   message.demonstration_switch = progress.demonstration.demonstration_switch;
   message.planner = skill.session().planner_name();
@@ -84,8 +71,7 @@ inline prf_msgs::SkillTrajectory refusal_for(const Progress& progress, const Cur
   return message;
 }
 
-inline prf_msgs::SkillTrajectory trajectory_for(const Progress& progress,
-                                                const CurrentSkill& skill,
+inline prf_msgs::SkillTrajectory trajectory_for(const Progress& progress, const CurrentSkill& skill,
                                                 const SkillResult& result) {
   prf_msgs::SkillTrajectory message = header_for(progress, skill);
   message.status = to_message(result.status);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_msgs/topics.h>
 #include <ros/ros.h>
 
 #include <chrono>
@@ -13,8 +14,7 @@
 namespace elte_planner {
 namespace {
 
-// Share of the demonstrated shape that the weights may cost without a warning.
-constexpr double kShapeLossWarning = 0.5;
+namespace topics = prf_msgs::topics;
 
 class SkillPlannerNode {
  public:
@@ -23,25 +23,20 @@ class SkillPlannerNode {
     warn_of_lost_shape();
     const auto hints = ros::TransportHints().tcpNoDelay();
     forecast_ =
-        node_.subscribe("target/forecast", 100, &SkillPlannerNode::on_forecast, this, hints);
-    progress_ =
-        node_.subscribe("execution/progress", 1000, &SkillPlannerNode::on_progress, this, hints);
+        node_.subscribe(topics::kTargetForecast, 100, &SkillPlannerNode::on_forecast, this, hints);
+    progress_ = node_.subscribe(topics::kExecutionProgress, 1000, &SkillPlannerNode::on_progress,
+                                this, hints);
     // Advertised last: whoever sees this publisher may send, both topics are subscribed.
-    trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>("skill/trajectory", 100);
+    trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>(topics::kSkillTrajectory, 100);
     updater_.setHardwareID("none");
     updater_.add("planner", this, &SkillPlannerNode::diagnose);
   }
 
  private:
   void warn_of_lost_shape() const {
-    const Demonstration& demonstration = skill_.session().demonstration();
-    const ElteWeights& weights = params_.session.weights;
-    const double loss = shape_loss(demonstration.positions(), weights);
-    if (loss < kShapeLossWarning) return;
-    ROS_WARN(
-        "w_elastic %g pulls a plan of %zu nodes straight: %.0f %% of the demonstrated shape "
-        "is lost without any editing (a disturbance decays over %.1f nodes)",
-        weights.elastic, demonstration.samples().size(), 100.0 * loss, weights.decay_nodes());
+    if (const auto warning = skill_.session().shape_warning(); !warning.empty()) {
+      ROS_WARN("%s", warning.c_str());
+    }
   }
 
   bool in_planning_frame(const std_msgs::Header& header, const char* topic) {
@@ -53,13 +48,16 @@ class SkillPlannerNode {
   }
 
   void on_forecast(const prf_msgs::TargetForecast& message) {
-    if (!in_planning_frame(message.header, "target/forecast")) return;
-    queue_.add(forecast_from(message));
+    if (!in_planning_frame(message.header, topics::kTargetForecast)) return;
+    const auto [forecast, refusal] = forecast_from(message);
+    if (!refusal.empty()) ROS_WARN_THROTTLE(5.0, "forecast taken as lost: %s", refusal.c_str());
+    refused_ += refusal.empty() ? 0 : 1;
+    queue_.add(forecast);
     plan_decided_requests();
   }
 
   void on_progress(const prf_msgs::ExecutionProgress& message) {
-    if (!in_planning_frame(message.header, "execution/progress")) return;
+    if (!in_planning_frame(message.header, topics::kExecutionProgress)) return;
     queue_.add(progress_from(message));
     plan_decided_requests();
   }
@@ -95,10 +93,8 @@ class SkillPlannerNode {
     note_solve_time(std::chrono::steady_clock::now() - start);
     status_ = result.status;
     message_ = result.message;
-    if (status_ == SkillStatus::kKept) {
-      ++kept_;
-      ROS_WARN_THROTTLE(5.0, "last plan kept: %s", message_.c_str());
-    }
+    if (status_ == SkillStatus::kKept) ROS_WARN_THROTTLE(5.0, "plan kept: %s", message_.c_str());
+    if (status_ == SkillStatus::kKept) ++kept_;
     return trajectory_for(progress, skill_, result);
   }
 
@@ -107,21 +103,22 @@ class SkillPlannerNode {
     solve_time_ = time;
     if (!is_late()) return;
     ++late_;
-    ROS_WARN_THROTTLE(5.0, "solve took %.6f s, late_after is %.6f s", time.count(),
-                      params_.late_after);
+    ROS_WARN_THROTTLE(5.0, "solve took %.6f s, above late_after", time.count());
   }
 
   bool is_late() const { return solve_time_.count() > params_.late_after; }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
     const bool good = (status_ == SkillStatus::kSolved && !is_late()) || requests_ == 0;
-    status.summary(
-        good ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
-        message_.empty() ? (is_late() ? "solve was late" : "planning") : message_);
+    const std::string usual = is_late() ? "solve was late" : "planning";
+    status.summary(good ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   message_.empty() ? usual : message_);
     status.add("plans sent", requests_);
     status.add("kept plans", kept_);
     status.add("late solves", late_);
     status.add("dropped, wrong frame", wrong_frame_);
+    status.add("forecasts refused", refused_);
     status.add("requests waiting for their forecast", queue_.waiting());
     status.add("last solve time, us", 1e6 * solve_time_.count());
   }
@@ -129,18 +126,14 @@ class SkillPlannerNode {
   SkillPlannerParams params_;
   CurrentSkill skill_;
   RequestQueue queue_;
-  std::size_t requests_ = 0;
-  std::size_t kept_ = 0;
-  std::size_t late_ = 0;
-  std::size_t wrong_frame_ = 0;
+  std::size_t requests_ = 0, kept_ = 0, late_ = 0, wrong_frame_ = 0, refused_ = 0;
   SkillStatus status_ = SkillStatus::kNoPlan;
   std::string message_;
   std::chrono::duration<double> solve_time_{0.0};
 
   ros::NodeHandle node_;
   ros::Publisher trajectory_;
-  ros::Subscriber forecast_;
-  ros::Subscriber progress_;
+  ros::Subscriber forecast_, progress_;
   diagnostic_updater::Updater updater_;
 };
 

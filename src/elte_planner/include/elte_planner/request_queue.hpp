@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Joins progress and forecasts by stamp, whichever arrives first: one request for every new
-// forecast that a progress names, in the order of the progress.
+// Joins progress and forecasts by stamp, whichever arrives first (prf_core/stream_joiner.hpp): one
+// request for every new forecast that a progress names, in the order of the progress.
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <map>
 #include <optional>
+#include <prf_core/stream_joiner.hpp>
 
 #include "elte_planner/skill_session.hpp"
 
@@ -15,30 +13,23 @@ namespace elte_planner {
 
 struct JoinedRequest {
   Progress progress;
-  std::optional<Forecast> forecast;  // nothing when a newer one came and this one never did
-  bool new_run = false;              // stamps jumped back before this request
+  std::optional<prf_core::TargetForecast> forecast;  // nothing: a newer one came, this one did not
+  bool new_run = false;                              // stamps jumped back before this request
 };
 
 class RequestQueue {
  public:
-  static constexpr std::int64_t kNewRunJump = 1'000'000'000;  // ns backwards
-  static constexpr std::size_t kMaxForecasts = 1000;
-
   void add(const Progress& progress);
-  void add(const Forecast& forecast);
+  void add(const prf_core::TargetForecast& forecast);
 
   // The oldest request whose forecast is decided.
   [[nodiscard]] std::optional<JoinedRequest> next();
 
-  std::size_t waiting() const { return requests_.size(); }
+  std::size_t waiting() const { return joiner_.waiting(); }
 
  private:
-  std::deque<JoinedRequest> requests_;
-  std::map<std::int64_t, Forecast> forecasts_;
-  std::int64_t newest_progress_ = 0;
-  std::int64_t newest_asked_ = 0;
-  std::int64_t newest_forecast_ = 0;
-  bool new_run_ = false;
+  prf_core::StreamJoiner<Progress, prf_core::TargetForecast> joiner_{prf_core::JoinParams{}};
+  prf_core::Stamp newest_named_{0};  // of the forecasts that a progress of this run named
 };
 
 }  // namespace elte_planner

@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <prf_core/forecast.hpp>
+#include <prf_core/time.hpp>
 #include <string>
 #include <vector>
 
@@ -24,21 +26,6 @@
 #include "elte_planner/skill_planner.hpp"
 
 namespace elte_planner {
-
-enum class TargetStatus { kNoTarget, kTracking, kCoasting, kLost };
-
-struct TargetPrediction {
-  double horizon = 0.0;  // s after the forecast's stamp
-  Pose target;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the position, m^2
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    // m/s
-};
-
-struct Forecast {
-  std::int64_t stamp = 0;  // ns
-  TargetStatus status = TargetStatus::kNoTarget;
-  std::vector<TargetPrediction> predictions;  // horizons strictly rising
-};
 
 // The demonstration that an execution asks for, see CurrentSkill.
 struct DemonstrationRequest {
@@ -51,10 +38,10 @@ struct DemonstrationRequest {
 };
 
 struct Progress {
-  std::int64_t stamp = 0;  // ns
-  std::int64_t forecast_stamp = 0;  // ns, of the forecast in force; 0 for none
+  prf_core::Stamp stamp{0};
+  prf_core::Stamp forecast_stamp{0};  // of the forecast in force; 0 for none
   Eigen::Index frozen = 0;            // leading nodes that must not move
-  double time_to_go = 0.0;  // s, from the cursor to the last node
+  prf_core::Duration time_to_go{0};   // from the cursor to the last node
   DemonstrationRequest demonstration = {};
 };
 
@@ -90,12 +77,6 @@ struct SkillResult {
   std::vector<TimedPose> poses;
 };
 
-// The target `horizon` seconds after the forecast's stamp, interpolated between the predictions
-// (its position by the cubic of their velocities) and held beyond the last; nothing when there are
-// none, one is not finite or horizons do not rise.
-[[nodiscard]] std::optional<TargetPrediction> predicted_target(const Forecast& forecast,
-                                                               double horizon);
-
 class SkillSession {
  public:
   // Throws std::invalid_argument.
@@ -104,9 +85,12 @@ class SkillSession {
   // forecast: the one that the progress names; null when it was lost on its way. A forecast that is
   // lost or invalid keeps the last plan.
   [[nodiscard]] SkillResult plan(const Progress& progress,
-                                 const Forecast* forecast);
+                                 const prf_core::TargetForecast* forecast);
 
   void reset();  // a new run: forgets the plan
+
+  // One line when the weights alone cost more than half of the demonstrated shape, else empty.
+  [[nodiscard]] std::string shape_warning() const;
 
   const Pose& goal_in_target() const { return goal_in_target_; }
   const Demonstration& demonstration() const { return demonstration_; }  // the plan's nodes
@@ -118,7 +102,8 @@ class SkillSession {
     double radius;  // of the l1 ball, m
   };
 
-  std::optional<std::vector<NodeGoal>> goals(const Forecast& forecast, double ahead) const;
+  std::vector<NodeGoal> goals(const prf_core::TargetForecast& forecast,
+                              prf_core::Stamp end_stamp) const;
   SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
   SkillResult keep(const std::string& reason, Eigen::Index frozen) const;
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <prf_core/require.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "elte_planner/confidence_radius.hpp"
@@ -14,28 +16,13 @@ namespace elte_planner {
 namespace {
 
 using prf_core::pose_from;
+using prf_core::TargetForecast;
+using prf_core::TargetStatus;
 
-constexpr double kNanosecond = 1e-9;
 // Growth of the goals' radius with the distance from the end, m/m, chosen by hand: 2 cm at 0.2 m.
 constexpr double kNarrowing = 0.1;
+constexpr double kShapeLossWarning = 0.5;  // share of the shape that may be lost
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-bool is_usable(const TargetPrediction& prediction) {
-  return std::isfinite(prediction.horizon) && prediction.target.is_finite() &&
-         prediction.covariance.allFinite() && prediction.velocity.allFinite() &&
-         std::abs(prediction.target.orientation.norm() - 1.0) <=
-             prf_core::kUnitQuaternionTolerance;
-}
-
-// Position at the fraction s of the time between two predictions, as the cubic of both velocities.
-Eigen::Vector3d hermite(const TargetPrediction& a, const TargetPrediction& b, double s) {
-  const double span = b.horizon - a.horizon;
-  const Eigen::Vector3d gap = b.target.position - a.target.position;
-  const Eigen::Vector3d start = span * a.velocity;
-  const Eigen::Vector3d end = span * b.velocity;
-  return a.target.position +
-         s * (start + s * (3.0 * gap - 2.0 * start - end + s * (start + end - 2.0 * gap)));
-}
 
 std::vector<Eigen::Quaterniond> orientations(const std::vector<TimedPose>& samples) {
   std::vector<Eigen::Quaterniond> result;
@@ -71,26 +58,6 @@ void SessionParams::validate() const {
   require_between("approach_length", approach_length, 0.0, 10.0, "m");
 }
 
-std::optional<TargetPrediction> predicted_target(const Forecast& forecast, double horizon) {
-  const auto& predictions = forecast.predictions;
-  const auto not_rising = [](const auto& a, const auto& b) { return !(a.horizon < b.horizon); };
-  if (predictions.empty() || !std::all_of(predictions.begin(), predictions.end(), is_usable) ||
-      std::adjacent_find(predictions.begin(), predictions.end(), not_rising) != predictions.end()) {
-    return std::nullopt;
-  }
-  const auto after = std::find_if(predictions.begin(), predictions.end(),
-                                  [&](const auto& p) { return p.horizon >= horizon; });
-  if (after == predictions.begin()) return predictions.front();
-  if (after == predictions.end()) return predictions.back();
-  const TargetPrediction& a = *(after - 1);
-  const TargetPrediction& b = *after;
-  const double s = (horizon - a.horizon) / (b.horizon - a.horizon);
-  return TargetPrediction{horizon,
-                          {hermite(a, b, s), a.target.orientation.slerp(s, b.target.orientation)},
-                          (1.0 - s) * a.covariance + s * b.covariance,
-                          (1.0 - s) * a.velocity + s * b.velocity};
-}
-
 SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
     : params_(params),
       demonstration_(demonstration.resampled_by_arc_length(
@@ -103,7 +70,18 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
 
 void SkillSession::reset() { plan_.reset(); }
 
-SkillResult SkillSession::plan(const Progress& progress, const Forecast* forecast) {
+std::string SkillSession::shape_warning() const {
+  const double loss = shape_loss(demonstration_.positions(), params_.weights);
+  if (loss < kShapeLossWarning) return {};
+  std::ostringstream text;
+  text << "w_elastic " << params_.weights.elastic << " pulls a plan of " << params_.nodes
+       << " nodes straight: " << std::lround(100.0 * loss)
+       << " % of the demonstrated shape is lost without any editing (a disturbance decays over "
+       << std::setprecision(2) << params_.weights.decay_nodes() << " nodes)";
+  return text.str();
+}
+
+SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* forecast) {
   const Eigen::Index frozen =
       std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes));
   const bool once = params_.adaptation == Adaptation::kOnce;
@@ -112,10 +90,10 @@ SkillResult SkillSession::plan(const Progress& progress, const Forecast* forecas
     repeated.frozen = frozen;
     return repeated;
   }
-  if (forecast == nullptr) return keep("the forecast never came", frozen);
+  if (forecast == nullptr) return keep("the forecast did not arrive", frozen);
   switch (forecast->status) {
     case TargetStatus::kNoTarget:
-      return keep("no target was seen yet", frozen);
+      return keep("there is no target yet", frozen);
     case TargetStatus::kLost:
       return keep("the target is lost", frozen);
     case TargetStatus::kCoasting:
@@ -124,32 +102,32 @@ SkillResult SkillSession::plan(const Progress& progress, const Forecast* forecas
     case TargetStatus::kTracking:
       break;
   }
-  const double age = kNanosecond * static_cast<double>(progress.stamp - forecast->stamp);
-  const double ahead = once ? 0.0 : progress.time_to_go + age;
-  if (!std::isfinite(ahead)) return keep("time_to_go is not finite", frozen);
   try {
-    const auto goals = this->goals(*forecast, ahead);
-    if (!goals) return keep("the forecast has no usable prediction", frozen);
-    return adapt(frozen, *goals);
+    forecast->validate();
+    return adapt(frozen, goals(*forecast, progress.stamp + progress.time_to_go));
   } catch (const std::invalid_argument& refused) {
     return keep(refused.what(), frozen);
   }
 }
 
-// ahead: time of the last node after the forecast's stamp, s.
-std::optional<std::vector<SkillSession::NodeGoal>> SkillSession::goals(const Forecast& forecast,
-                                                                       double ahead) const {
+// end_stamp: when the hand reaches the last node.
+std::vector<SkillSession::NodeGoal> SkillSession::goals(const TargetForecast& forecast,
+                                                        prf_core::Stamp end_stamp) const {
+  using prf_core::Duration;
+  const Duration horizon_max =
+      prf_core::from_seconds(params_.adaptation == Adaptation::kOnce ? 0.0 : params_.horizon_max);
   std::vector<NodeGoal> result;
   const TimedPose& end = approach_.back();
-  const bool once = params_.adaptation == Adaptation::kOnce;
   for (const TimedPose& node : approach_) {
-    const double horizon = once ? 0.0 : ahead - (end.time - node.time);
-    const auto target = predicted_target(forecast, std::clamp(horizon, 0.0, params_.horizon_max));
-    if (!target) return std::nullopt;
-    const double radius = std::clamp(confidence_radius(target->covariance, params_.confidence),
-                                     params_.radius_min, params_.radius_max);
+    const Duration before_end = prf_core::from_seconds(end.time - node.time);
+    const Duration horizon =
+        std::clamp(end_stamp - before_end - forecast.stamp, Duration{0}, horizon_max);
+    const auto target = prf_core::predicted_target(forecast, forecast.stamp + horizon);
+    const double radius =
+        std::clamp(confidence_radius(target.position_covariance(), params_.confidence),
+                   params_.radius_min, params_.radius_max);
     const double distance = (node.pose.position - end.pose.position).norm();
-    result.push_back({pose_from(target->target.isometry() * node.pose.isometry()),
+    result.push_back({pose_from(target.target.pose.isometry() * node.pose.isometry()),
                       radius + kNarrowing * distance});
   }
   return result;
@@ -186,8 +164,7 @@ SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
     result.poses[k].pose = {plan.positions.row(static_cast<Eigen::Index>(k)).transpose(),
                             blended[k]};
   }
-  result.status =
-      plan.status == PlanStatus::kSolved ? SkillStatus::kSolved : SkillStatus::kRelaxed;
+  result.status = plan.status == PlanStatus::kSolved ? SkillStatus::kSolved : SkillStatus::kRelaxed;
   result.message = plan.message;
   result.kkt_residual = plan.kkt_residual;
   result.slack = plan.slack;

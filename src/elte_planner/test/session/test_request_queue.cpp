@@ -9,14 +9,16 @@
 namespace elte_planner {
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+using std::chrono::milliseconds;
 
 Progress progress(std::int64_t stamp_ms, std::int64_t forecast_ms) {
-  return {stamp_ms * kMillisecond, forecast_ms * kMillisecond, 2, 1.0};
+  return {milliseconds(stamp_ms), milliseconds(forecast_ms), 2, std::chrono::seconds(1)};
 }
 
-Forecast forecast(std::int64_t stamp_ms) {
-  return {stamp_ms * kMillisecond, TargetStatus::kTracking, {}};
+prf_core::TargetForecast forecast(std::int64_t stamp_ms) {
+  prf_core::TargetForecast result;
+  result.stamp = milliseconds(stamp_ms);
+  return result;
 }
 
 std::vector<JoinedRequest> drained(RequestQueue& queue) {
@@ -33,9 +35,9 @@ TEST(RequestQueue, AsksOnceForEveryForecastNamed) {
   queue.add(progress(180, 100));
   const auto requests = drained(queue);
   ASSERT_EQ(requests.size(), 1u);
-  EXPECT_EQ(requests[0].progress.stamp, 170 * kMillisecond);
+  EXPECT_EQ(requests[0].progress.stamp, milliseconds(170));
   ASSERT_TRUE(requests[0].forecast);
-  EXPECT_EQ(requests[0].forecast->stamp, 100 * kMillisecond);
+  EXPECT_EQ(requests[0].forecast->stamp, milliseconds(100));
 }
 
 TEST(RequestQueue, GivesTheSameRequestsInAnyOrderBetweenTheTopics) {
@@ -59,10 +61,10 @@ TEST(RequestQueue, GivesTheSameRequestsInAnyOrderBetweenTheTopics) {
     ASSERT_EQ(requests.size(), 20u);
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const std::int64_t stamp = 100 * static_cast<std::int64_t>(i + 1);
-      ASSERT_EQ(requests[i].progress.forecast_stamp, stamp * kMillisecond);
-      ASSERT_EQ(requests[i].progress.stamp, (stamp + 70) * kMillisecond);
+      ASSERT_EQ(requests[i].progress.forecast_stamp, milliseconds(stamp));
+      ASSERT_EQ(requests[i].progress.stamp, milliseconds(stamp + 70));
       ASSERT_TRUE(requests[i].forecast);
-      ASSERT_EQ(requests[i].forecast->stamp, stamp * kMillisecond);
+      ASSERT_EQ(requests[i].forecast->stamp, milliseconds(stamp));
     }
   }
 }
@@ -109,7 +111,7 @@ TEST(RequestQueue, IgnoresForecastsNamedAgainLater) {
   queue.add(progress(220, 166));
   const auto requests = drained(queue);
   ASSERT_EQ(requests.size(), 2u);
-  EXPECT_EQ(requests[1].progress.stamp, 220 * kMillisecond);
+  EXPECT_EQ(requests[1].progress.stamp, milliseconds(220));
   EXPECT_FALSE(requests[1].new_run);
 }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "elte_planner/skill_session.hpp"
+
+namespace elte_planner {
+namespace {
+
+Demonstration line() {
+  std::vector<TimedPose> samples;
+  for (int i = 0; i <= 10; ++i) {
+    samples.push_back({0.1 * i, {{0.05 * i, 0.0, 0.3}, Eigen::Quaterniond::Identity()}});
+  }
+  return Demonstration(samples, "arm", "hand", Pose{});
+}
+
+SessionParams params() {
+  SessionParams result;
+  result.planner = "elte";
+  result.nodes = 50;
+  result.horizon_max = 2.0;
+  result.confidence = 0.5;
+  result.radius_min = 0.001;
+  result.radius_max = 0.02;
+  return result;
+}
+
+TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
+  EXPECT_NO_THROW(SkillSession(params(), line()));
+  const auto refused = [](const std::string& name, auto&& change) {
+    SessionParams bad = params();
+    change(bad);
+    try {
+      SkillSession session(bad, line());
+      FAIL() << name << " accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  };
+  refused("planner", [](SessionParams& p) { p.planner = "bezier"; });
+  refused("nodes", [](SessionParams& p) { p.nodes = 2; });
+  refused("nodes", [](SessionParams& p) { p.nodes = -1; });
+  refused("w_elastic", [](SessionParams& p) { p.weights.elastic = -1.0; });
+  refused("w_bending", [](SessionParams& p) { p.weights.bending = std::nan(""); });
+  refused("max_step", [](SessionParams& p) { p.max_step = -0.1; });
+  refused("max_step", [](SessionParams& p) {
+    p.planner = "dmp";
+    p.max_step = 0.1;
+  });
+  refused("horizon_max", [](SessionParams& p) { p.horizon_max = std::nan(""); });
+  refused("confidence", [](SessionParams& p) { p.confidence = 1.0; });
+  refused("radius_min", [](SessionParams& p) { p.radius_min = -0.1; });
+  refused("approach_length", [](SessionParams& p) { p.approach_length = -0.1; });
+  refused("radius_max", [](SessionParams& p) { p.radius_max = 0.0005; });
+}
+
+}  // namespace
+}  // namespace elte_planner
