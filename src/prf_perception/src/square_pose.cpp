@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <prf_core/require.hpp>
+#include <prf_core/se3.hpp>
 #include <string>
 #include <utility>
 
@@ -73,13 +74,9 @@ Jacobian projection_jacobian(const Eigen::Isometry3d& pose, double side,
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& step) {
   Eigen::Isometry3d result = pose;
   result.translation() += step.head<3>();
-  const double angle = step.tail<3>().norm();
-  if (angle > 0) {
-    const Eigen::AngleAxisd turn(angle, step.tail<3>() / angle);
-    result.linear() = Eigen::Quaterniond(turn * Eigen::Quaterniond(pose.linear()))
-                          .normalized()
-                          .toRotationMatrix();
-  }
+  result.linear() = (prf_core::exp_so3(step.tail<3>()) * Eigen::Quaterniond(pose.linear()))
+                        .normalized()
+                        .toRotationMatrix();
   return result;
 }
 
@@ -119,8 +116,8 @@ std::optional<Minimum> descend(const Corners& corners, const CameraIntrinsics& c
 
 // The marker reflected in depth: where the second minimum lies under weak perspective.
 Eigen::Isometry3d mirrored(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d sight = pose.translation().normalized();
-  const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2.0 * sight * sight.transpose();
+  const Eigen::Vector3d ray = pose.translation().normalized();
+  const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2.0 * ray * ray.transpose();
   Eigen::Isometry3d result = pose;
   result.linear() = reflection * pose.linear() * Eigen::Vector3d(1, 1, -1).asDiagonal();
   return result;
@@ -133,8 +130,8 @@ double mean_side(const Corners& corners) {
 }
 
 Eigen::Vector3d rotation_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
-  return turn.angle() * turn.axis();
+  return prf_core::rotation_between(Eigen::Quaterniond(from.linear()),
+                                    Eigen::Quaterniond(to.linear()));
 }
 
 Matrix6d covariance_of(const Minimum& found, const std::optional<Minimum>& other,
