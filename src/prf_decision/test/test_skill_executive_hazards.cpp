@@ -91,5 +91,19 @@ TEST(SkillExecutive, PausesThenGoesBackThenStopsWhenTheTargetStaysLost) {
   EXPECT_EQ(world.run(1).progress.state, ExecutionState::kStopped);
 }
 
+TEST(SkillExecutive, DoesNotFollowTheForecastOfALostTargetOnTheApproach) {
+  DecisionParams params = usual_params();
+  params.reference.approach_length = 0.1;
+  World world(params);
+  world.until(ExecutionState::kForward, 0.1);
+  world.run(0.75);
+  world.status = TargetStatus::kLost;
+  world.velocity = {0, 0.1, 0};
+  world.until(ExecutionState::kPause, 0.1);
+  const ExecutiveResult held = world.run(0.8);
+  EXPECT_EQ(held.progress.state, ExecutionState::kPause);
+  EXPECT_LT(held.setpoint->linear_velocity.norm(), 1e-3);
+}
+
 }  // namespace
 }  // namespace prf_decision
