@@ -12,9 +12,9 @@
 namespace prf_decision {
 namespace {
 
-constexpr double kSumTolerance = 1e-9;
-constexpr double kSymmetryTolerance = 1e-12;
-constexpr double kMinVariance = 1e-8;  // (0.1 mm/s)^2, far below any sensor's noise
+constexpr double kSumTolerance = 1e-9;        // of probabilities written with ten digits
+constexpr double kSymmetryTolerance = 1e-12;  // m^2/s^2, rounding of a product at 1 m^2/s^2
+constexpr double kMinVariance = 1e-8;         // (0.1 mm/s)^2, far below any sensor's noise
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {

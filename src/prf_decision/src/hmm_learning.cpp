@@ -70,8 +70,8 @@ Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
 // The first one spreads the states evenly over the speeds, the others at random.
 HmmParams first_guess(const Eigen::Matrix3d& moment, bool free_means, int restart,
                       std::mt19937& random) {
-  std::array<double, kIntents> size{0.3, 0.8, 1.6};
-  double stay = 0.9;
+  std::array<double, kIntents> size{0.3, 0.8, 1.6};  // times the pooled moment's root
+  double stay = 0.9;                                 // probability, for each state
   HmmParams guess;
   for (Eigen::Vector3d& mean : guess.mean) mean.setZero();
   if (restart > 0) {
