@@ -145,7 +145,8 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(back.poses, before.poses)
 
     def test_8_tells_late_solves_and_sends_their_plans(self):
-        plans, reports = [], {}
+        plans: list[SkillTrajectory] = []
+        reports: dict[str, int] = {}
 
         def remember(message):
             for status in message.status:

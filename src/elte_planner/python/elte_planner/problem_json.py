@@ -111,6 +111,7 @@ def _solve(problem):
     if obstacles and "clearance" not in problem:
         raise ValueError("the problem has obstacles and lacks 'clearance'")
     start = time.perf_counter()
+    solution: elte_planner.Solution | elte_planner.AvoidanceSolution
     if obstacles:
         solution = elte_planner.avoid(zeta, obstacles, float(problem["clearance"]), **given)
     else:
@@ -124,7 +125,7 @@ def _solve(problem):
         "y": solution.y.tolist() if solved else None,
         "objective": solution.energy if solved else None,
         "kkt_residual": solution.kkt_residual if solved else None}
-    if obstacles:
+    if isinstance(solution, elte_planner.AvoidanceSolution):
         result["clearance"] = solution.clearance if solved else None
     else:
         result["forces"] = solution.forces.tolist() if solved else None
