@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <prf_core/require.hpp>
 #include <stdexcept>
-#include <string>
 
 #include "camera_canvas.hpp"
 #include "scene_facets.hpp"
@@ -69,10 +69,7 @@ CameraRenderer::CameraRenderer(const PinholeCamera& camera, const TargetBox& tar
     : camera_(camera) {
   camera.validate();
   target.validate();
-  if (clutter.posters < 0 || clutter.posters > Clutter::kMost) {
-    throw std::invalid_argument("clutter is " + std::to_string(clutter.posters) +
-                                ", must be in 0.." + std::to_string(Clutter::kMost));
-  }
+  prf_core::require_between("clutter", clutter.posters, 0, Clutter::kMost);
   scene_ = std::make_unique<Scene>(camera, target, clutter);
 }
 CameraRenderer::~CameraRenderer() = default;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,14 +12,10 @@ namespace camera_sim {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
-constexpr double kInstantSpacing = 3.0;  // ms
-constexpr double kTolerance = 1e-6;      // ms, of decimal figures in seconds
-
-void require_within(const std::string& name, double value, double highest) {
-  if (value >= 0.0 && value <= highest) return;
-  throw std::invalid_argument(name + " = " + std::to_string(value) + ", must be in 0.." +
-                              std::to_string(highest) + " s");
-}
+constexpr double kInstantSpacing = 3.0;     // ms
+constexpr double kLongestLatency = 0.5;     // s
+constexpr double kLongestExposure = 0.016;  // s, half a frame
+constexpr double kTolerance = 1e-6;         // ms, of decimal figures in seconds
 
 std::int64_t stamp_of(std::uint64_t index, std::int64_t first_ms) {
   return first_ms + std::llround(static_cast<double>(index) * 1000.0 / kFramesPerSecond);
@@ -27,8 +24,8 @@ std::int64_t stamp_of(std::uint64_t index, std::int64_t first_ms) {
 }  // namespace
 
 void CameraTiming::validate() const {
-  require_within("latency", latency, 0.5);
-  require_within("exposure", exposure, 0.016);
+  prf_core::require_between("latency", latency, 0.0, kLongestLatency, "s");
+  prf_core::require_between("exposure", exposure, 0.0, kLongestExposure, "s");
 }
 
 CameraSchedule::CameraSchedule(const CameraTiming& timing, std::int64_t first_ms)

@@ -4,42 +4,35 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <prf_core/require.hpp>
 #include <random>
-#include <stdexcept>
 
 #include "hand_silhouette.hpp"
 
 namespace camera_sim {
 namespace {
 
+constexpr double kLargestNoise = 100.0;                     // grey levels
 constexpr std::uint64_t kLightStream = 0x6c69676874000000;  // apart from the seed's other draws
 
-void require(bool holds, const std::string& name, double value, const std::string& bound) {
-  if (holds) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be " + bound);
-}
-
-const HandCameraConfig& valid(const HandCameraConfig& config) {
+const HandCameraParams& valid(const HandCameraParams& config) {
   config.validate();
   return config;
 }
 
 }  // namespace
 
-void HandCameraConfig::validate() const {
+void HandCameraParams::validate() const {
   optics.validate();
   timing.validate();
-  require(noise >= 0.0 && noise <= 100.0, "camera noise", noise, "in 0..100 grey levels");
-  require(light_change >= 0.0 && light_change <= 0.9, "camera light_change", light_change,
-          "in 0..0.9");
-  require(light_period >= 0.1 && light_period <= 3600.0, "camera light_period", light_period,
-          "in 0.1..3600 s");
-  require(clutter >= 0 && clutter <= Clutter::kMost, "camera clutter", clutter,
-          "in 0.." + std::to_string(Clutter::kMost));
+  prf_core::require_between("camera noise", noise, 0.0, kLargestNoise, "grey levels");
+  prf_core::require_between("camera light_change", light_change, 0.0, 0.9);
+  prf_core::require_between("camera light_period", light_period, 0.1, 3600.0, "s");
+  prf_core::require_between("camera clutter", clutter, 0, Clutter::kMost);
 }
 
 HandCamera::HandCamera(const std::string& urdf_xml, const TargetBox& target,
-                       const HandCameraConfig& config)
+                       const HandCameraParams& config)
     : config_(valid(config)),
       renderer_(config.optics, target, {config.clutter, config.seed}),
       noise_(config.noise, config.seed) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <stdexcept>
-#include <string>
 
 namespace camera_sim {
 namespace {
@@ -24,10 +24,7 @@ double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 }  // namespace
 
 ImageNoise::ImageNoise(double sigma, std::uint64_t seed) : seed_(seed) {
-  if (!(sigma >= 0.0 && sigma <= kMaxSigma)) {
-    throw std::invalid_argument("noise sigma is " + std::to_string(sigma) +
-                                ", must be in 0..100 grey levels");
-  }
+  prf_core::require_between("noise sigma", sigma, 0.0, kMaxSigma, "grey levels");
   if (sigma == 0.0) return;
   int level = -static_cast<int>(std::ceil(6.0 * sigma));
   for (int i = 0; i < kQuantiles; ++i) {
@@ -43,10 +40,11 @@ void ImageNoise::add(cv::Mat& image, std::uint64_t frame) const {
   for (int y = 0; y < image.rows; ++y) {
     unsigned char* row = image.ptr(y);
     std::uint64_t bits = 0;
-    for (int x = 0; x < image.cols; ++x, bits >>= 16) {
+    for (int x = 0; x < image.cols; ++x) {
       if (x % 4 == 0) bits = mix(counter += 0x9e3779b97f4a7c15ULL);
       const int grey = row[x] + quantiles_[bits & 0xffff];
       row[x] = static_cast<unsigned char>(std::clamp(grey, 0, 255));
+      bits >>= 16;
     }
   }
 }

@@ -4,23 +4,20 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <prf_core/require.hpp>
 #include <string>
 
 namespace camera_sim {
 namespace {
 
 constexpr double kLeastSlope = 0.2;  // of the radial distortion within the image
+// Of the coefficients: lenses in use stay below a tenth of these.
 constexpr double kLargestTangential = 0.1;
-constexpr double kMargin = 1.1;  // of the image's corners
+constexpr double kLargestRadial = 10.0;
+constexpr int kLargestImage = 4096;  // px
+constexpr double kMargin = 1.1;      // of the image's corners
 constexpr int kNewtonSteps = 12;
 constexpr double kConverged = 1e-16;  // squared; one more step squares the error
-
-void require(bool holds, const std::string& name, double value, const std::string& bound) {
-  if (!holds) {
-    throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be " + bound);
-  }
-}
 
 // Distance of the image's farthest corner from the optical axis in distorted coordinates.
 double farthest_corner(const PinholeCamera& camera) {
@@ -45,21 +42,20 @@ bool reaches_the_corners(const PinholeCamera& camera) {
 }  // namespace
 
 void PinholeCamera::validate() const {
-  require(width > 0 && width <= 4096, "width", width, "in 1..4096 px");
-  require(height > 0 && height <= 4096, "height", height, "in 1..4096 px");
-  require(fx > 0.0 && std::isfinite(fx), "fx", fx, "finite and > 0 px");
-  require(fy > 0.0 && std::isfinite(fy), "fy", fy, "finite and > 0 px");
-  require(std::isfinite(cx), "cx", cx, "finite");
-  require(std::isfinite(cy), "cy", cy, "finite");
+  prf_core::require_between("width", width, 1, kLargestImage, "px");
+  prf_core::require_between("height", height, 1, kLargestImage, "px");
+  prf_core::require(fx > 0.0 && std::isfinite(fx), "fx", fx, "finite and > 0 px");
+  prf_core::require(fy > 0.0 && std::isfinite(fy), "fy", fy, "finite and > 0 px");
+  prf_core::require_finite("cx", cx);
+  prf_core::require_finite("cy", cy);
   for (std::size_t i = 0; i < distortion.size(); ++i) {
-    const bool tangential = i == 2 || i == 3;
-    require(std::abs(distortion[i]) <= (tangential ? kLargestTangential : 10.0),
-            "distortion[" + std::to_string(i) + "]", distortion[i],
-            tangential ? "in -0.1..0.1" : "in -10..10");
+    const double largest = i == 2 || i == 3 ? kLargestTangential : kLargestRadial;
+    prf_core::require_between("distortion[" + std::to_string(i) + "]", distortion[i], -largest,
+                              largest);
   }
   if (distorts()) {
-    require(reaches_the_corners(*this), "distortion[0]", distortion[0],
-            "so that the radial distortion rises up to the image's corners");
+    prf_core::require(reaches_the_corners(*this), "distortion[0]", distortion[0],
+                      "so that the radial distortion rises up to the image's corners");
   }
 }
 

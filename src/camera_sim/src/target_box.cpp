@@ -2,16 +2,10 @@
 #include "camera_sim/target_box.hpp"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <prf_core/require.hpp>
 
 namespace camera_sim {
 namespace {
-
-void require_positive(const std::string& name, double value) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be above 0");
-}
 
 Cuboid cuboid_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
   Cuboid cuboid;
@@ -30,26 +24,21 @@ Cuboid deck() { return cuboid_at({0.0, 0.0, -0.5 * kDeckSize.z()}, kDeckSize); }
 Cuboid cart_chassis() { return cuboid_at(kChassisCentre, kChassisSize); }
 
 void TargetBox::validate() const {
-  if (!tag_position_in_platform.allFinite()) {
-    throw std::invalid_argument("target.tag_position_in_platform is not finite");
-  }
-  if (!std::isfinite(yaw)) throw std::invalid_argument("target.yaw is not finite");
-  require_positive("target.tag_size", tag_size);
-  require_positive("target.inner_width", inner_width);
-  require_positive("target.inner_depth", inner_depth);
-  require_positive("target.wall_thickness", wall_thickness);
-  require_positive("target.post_width", post_width);
+  prf_core::require(tag_position_in_platform.allFinite(), "target.tag_position_in_platform",
+                    tag_position_in_platform.transpose(), "finite");
+  prf_core::require_finite("target.yaw", yaw);
+  prf_core::require_positive("target.tag_size", tag_size, "m");
+  prf_core::require_positive("target.inner_width", inner_width, "m");
+  prf_core::require_positive("target.inner_depth", inner_depth, "m");
+  prf_core::require_positive("target.wall_thickness", wall_thickness, "m");
+  prf_core::require_positive("target.post_width", post_width, "m");
   const double reach = std::abs(tag_above_box_centre) + 0.5 * tag_size;
-  if (!(reach <= 0.5 * inner_width)) {
-    throw std::invalid_argument("target.tag_above_box_centre is " +
-                                std::to_string(tag_above_box_centre) +
-                                ", must keep the tag on the back wall of target.inner_width " +
-                                std::to_string(inner_width));
-  }
+  prf_core::require(reach <= 0.5 * inner_width, "target.tag_above_box_centre", tag_above_box_centre,
+                    "so that the tag is on the back wall");
   const double box_bottom =
       tag_position_in_platform.z() - tag_above_box_centre - 0.5 * inner_width - wall_thickness;
   const double foot = on_cart ? kChassisCentre.z() + 0.5 * kChassisSize.z() : 0.0;
-  require_positive("height of the target box over what carries it", box_bottom - foot);
+  prf_core::require_positive("height of the target box over its support", box_bottom - foot, "m");
 }
 
 Eigen::Isometry3d TargetBox::tag_in_platform() const {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders views of the tag on a plain panel, for studies of detectors.
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -16,15 +16,12 @@ namespace {
 
 using namespace camera_sim;
 
-constexpr char kUsage[] =
-    "usage: render_tag_views NAME=VALUE ... < VIEWS > IMAGES\n"
-    "  VIEWS   one line a view: pose x y z (m) qx qy qz qw of the tag in the optical frame (x "
+constexpr char kAbout[] =
+    "Renders views of the tag on a plain panel, for studies of detectors.\n"
+    "stdin   one line a view: pose x y z (m) qx qy qz qw of the tag in the optical frame (x "
     "right,\n"
-    "          y down, z forward; the tag's z out of its face), its velocity vx vy vz (m/s)\n"
-    "  IMAGES  one stream of binary PGM images (P5), 8 bit\n"
-    "  names, all required: tag_size (m) exposure (s) noise (grey levels) seed clutter (posters) "
-    "and\n"
-    "  the camera's width height fx fy cx cy k1 k2 p1 p2 k3\n";
+    "        y down, z forward; the tag's z out of its face), its velocity vx vy vz (m/s)\n"
+    "stdout  one stream of binary PGM images (P5), 8 bit";
 
 constexpr double kPanelDepth = 0.001;   // m: the tag's box is nearly flat
 constexpr double kMostInstants = 40.0;  // of an exposure; one for each pixel of blur
@@ -36,39 +33,34 @@ struct View {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
 };
 
-std::map<std::string, double> read_arguments(int argc, char** argv) {
-  std::map<std::string, double> values;
-  for (int i = 1; i < argc; ++i) {
-    std::istringstream word(argv[i]);
-    std::string name;
-    double value = 0.0;
-    if (!std::getline(word, name, '=') || !(word >> value) || !(word >> std::ws).eof()) {
-      throw std::invalid_argument(std::string(argv[i]) + ": must be NAME=NUMBER");
-    }
-    values[name] = value;
-  }
-  return values;
-}
-
-double take(std::map<std::string, double>& values, const std::string& name) {
-  const auto found = values.find(name);
-  if (found == values.end()) throw std::invalid_argument(name + " is missing");
-  const double value = found->second;
-  values.erase(found);
-  return value;
-}
-
-PinholeCamera take_camera(std::map<std::string, double>& values) {
+struct Params {
   PinholeCamera camera;
-  camera.width = static_cast<int>(take(values, "width"));
-  camera.height = static_cast<int>(take(values, "height"));
-  camera.fx = take(values, "fx");
-  camera.fy = take(values, "fy");
-  camera.cx = take(values, "cx");
-  camera.cy = take(values, "cy");
+  double tag_size = 0.0;  // m
+  double exposure = 0.0;  // s
+  double noise = 0.0;     // grey levels
+  Clutter clutter;
+};
+
+// All options are required.
+void add_options(CLI::App& app, Params& params) {
+  const auto add = [&](const std::string& name, auto& value, const std::string& meaning) {
+    return app.add_option("--" + name, value, meaning)->required();
+  };
+  add("tag_size", params.tag_size, "m");
+  add("exposure", params.exposure, "s")->check(CLI::Range(0.0, 1.0));
+  add("noise", params.noise, "standard deviation, grey levels");
+  add("seed", params.clutter.seed, "of noise and posters");
+  add("clutter", params.clutter.posters, "posters on the walls");
+  add("width", params.camera.width, "px");
+  add("height", params.camera.height, "px");
+  add("fx", params.camera.fx, "px");
+  add("fy", params.camera.fy, "px");
+  add("cx", params.camera.cx, "px");
+  add("cy", params.camera.cy, "px");
   const std::array<std::string, 5> names{"k1", "k2", "p1", "p2", "k3"};
-  for (std::size_t i = 0; i < names.size(); ++i) camera.distortion[i] = take(values, names[i]);
-  return camera;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    add(names[i], params.camera.distortion[i], "of plumb_bob");
+  }
 }
 
 View parse_view(const std::string& line) {
@@ -88,17 +80,12 @@ View parse_view(const std::string& line) {
 
 class Studio {
  public:
-  explicit Studio(std::map<std::string, double> values)
-      : exposure_(take(values, "exposure")),
-        target_(panel(take(values, "tag_size"))),
-        camera_(take_camera(values)),
-        noise_(take(values, "noise"), seed_of(take(values, "seed"))),
-        renderer_(camera_, target_, {static_cast<int>(take(values, "clutter")), seed_}) {
-    if (!values.empty()) throw std::invalid_argument("unknown " + values.begin()->first);
-    if (!(exposure_ >= 0.0 && exposure_ <= 1.0)) {
-      throw std::invalid_argument("exposure must be in 0..1 s");
-    }
-  }
+  explicit Studio(const Params& params)
+      : exposure_(params.exposure),
+        target_(panel(params.tag_size)),
+        camera_(params.camera),
+        noise_(params.noise, params.clutter.seed),
+        renderer_(camera_, target_, params.clutter) {}
 
   cv::Mat picture(const View& view, std::uint64_t number) const {
     const double blur =
@@ -123,8 +110,6 @@ class Studio {
     return target;
   }
 
-  std::uint64_t seed_of(double seed) { return seed_ = static_cast<std::uint64_t>(seed); }
-
   CameraView in_room(const View& view) const {
     CameraView result;
     result.camera = Eigen::Translation3d(kCameraInRoom) *
@@ -137,13 +122,12 @@ class Studio {
   double exposure_;
   TargetBox target_;
   PinholeCamera camera_;
-  std::uint64_t seed_ = 0;
   ImageNoise noise_;
   CameraRenderer renderer_;
 };
 
-void render_all(int argc, char** argv) {
-  const Studio studio(read_arguments(argc, argv));
+void render_all(const Params& params) {
+  const Studio studio(params);
   std::string line;
   for (std::uint64_t number = 0; std::getline(std::cin, line); ++number) {
     const cv::Mat image = studio.picture(parse_view(line), number);
@@ -155,12 +139,14 @@ void render_all(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << kUsage;
-    return 2;
-  }
+  CLI::App app{kAbout};
+  Params params;
+  add_options(app, params);
   try {
-    render_all(argc, argv);
+    app.parse(argc, argv);
+    render_all(params);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::invalid_argument& error) {
     std::cerr << "render_tag_views: " << error.what() << "\n";
     return 2;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <opencv2/core/mat.hpp>
+#include <prf_ros/conversions.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,39 +30,8 @@ inline ros::Time to_stamp(std::int64_t milliseconds) {
                    static_cast<std::uint32_t>(milliseconds % 1000 * 1'000'000));
 }
 
-inline std::int64_t to_ns(const ros::Time& stamp) {
-  return static_cast<std::int64_t>(stamp.toNSec());
-}
-
-inline geometry_msgs::Point to_point(const Eigen::Vector3d& vector) {
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
-}
-
-inline geometry_msgs::Vector3 to_vector3(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
-inline Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& message) {
-  return {message.x, message.y, message.z};
-}
-
 inline geometry_msgs::Pose to_pose(const Eigen::Isometry3d& pose) {
-  geometry_msgs::Pose message;
-  message.position = to_point(pose.translation());
-  const Eigen::Quaterniond rotation(pose.linear());
-  message.orientation.x = rotation.x();
-  message.orientation.y = rotation.y();
-  message.orientation.z = rotation.z();
-  message.orientation.w = rotation.w();
-  return message;
+  return prf_ros::to_message(prf_core::Pose{pose.translation(), Eigen::Quaterniond(pose.linear())});
 }
 
 inline geometry_msgs::PoseStamped to_pose_stamped(const std_msgs::Header& header,
@@ -80,8 +50,8 @@ inline nav_msgs::Odometry to_odometry(const std_msgs::Header& header, const std:
   message.child_frame_id = child;
   message.pose.pose = to_pose(state.pose);
   const Eigen::Matrix3d world_to_child = state.pose.linear().transpose();
-  message.twist.twist.linear = to_vector3(world_to_child * state.linear);
-  message.twist.twist.angular = to_vector3(world_to_child * state.angular);
+  message.twist.twist.linear = prf_ros::to_vector3(world_to_child * state.linear);
+  message.twist.twist.angular = prf_ros::to_vector3(world_to_child * state.angular);
   return message;
 }
 
@@ -94,7 +64,7 @@ inline prf_msgs::ContactArray to_contact_array(const std_msgs::Header& header,
     entry.link_a = contact.link_a;
     entry.link_b = contact.link_b;
     entry.force = contact.force;
-    entry.position = to_point(contact.position);
+    entry.position = prf_ros::to_point(contact.position);
   }
   return message;
 }
@@ -176,7 +146,8 @@ inline HandWrench to_hand_wrench(const geometry_msgs::WrenchStamped& message) {
   if (message.header.frame_id != "world") {
     throw std::invalid_argument("frame_id = '" + message.header.frame_id + "', must be world");
   }
-  const HandWrench wrench{to_eigen(message.wrench.force), to_eigen(message.wrench.torque)};
+  const HandWrench wrench{prf_ros::to_core(message.wrench.force),
+                          prf_ros::to_core(message.wrench.torque)};
   if (!wrench.force.allFinite()) throw std::invalid_argument("the force is not finite");
   if (!wrench.torque.allFinite()) throw std::invalid_argument("the torque is not finite");
   return wrench;

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "platform_sim");
   using platform_sim::Simulation;
   ros::NodeHandle node;
-  Simulation::Outcome outcome = Simulation::Outcome::kEnded;
+  Simulation::End end_reason = Simulation::End::kEnded;
   const int refused = prf_ros::run([&] {
     ros::NodeHandle private_node("~");
     std::string urdf;
@@ -18,11 +18,11 @@ int main(int argc, char** argv) {
       throw std::invalid_argument(node.resolveName("robot_description") +
                                   " is missing, must hold the URDF of the robot");
     }
-    const platform_sim::SimParameters params =
-        platform_sim::read_parameters(prf_ros::PrivateParameters(private_node));
-    outcome = Simulation(node, private_node, params, urdf).run();
+    const platform_sim::SimParams params =
+        platform_sim::load_params(prf_ros::PrivateParameters(private_node));
+    end_reason = Simulation(node, private_node, params, urdf).run();
   });
   if (refused != 0) return refused;
   constexpr int kSilentExitCode = 3;
-  return outcome == Simulation::Outcome::kSilent ? kSilentExitCode : 0;
+  return end_reason == Simulation::End::kSilent ? kSilentExitCode : 0;
 }

@@ -9,19 +9,22 @@
 namespace platform_sim {
 
 // The node's parameters; config/platform_sim.yaml says what each means.
-struct SimParameters {
-  WorldConfig world;
+struct SimParams {
+  WorldParams world;
   std::string variation;  // what the seed drew, in words
-  camera_sim::HandCameraConfig camera;
+  camera_sim::HandCameraParams camera;
   bool lockstep = true;
   bool paused = false;
-  double answer_timeout = 0.0;    // s, wall time
+  double response_timeout = 0.0;  // s, wall time
   double real_time_factor = 0.0;  // 0: none in lockstep, 1 otherwise
   double time_limit = 0.0;        // s
   double end_delay = 0.0;         // s
+
+  // Throws std::invalid_argument with name, value and bound.
+  void validate() const;
 };
 
 // Throws std::invalid_argument with name, value and bound.
-[[nodiscard]] SimParameters read_parameters(prf_ros::PrivateParameters values);
+[[nodiscard]] SimParams load_params(prf_ros::PrivateParameters values);
 
 }  // namespace platform_sim

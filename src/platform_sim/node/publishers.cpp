@@ -2,12 +2,17 @@
 #include "publishers.hpp"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <prf_msgs/ground_truth_topics.h>
+#include <prf_msgs/topics.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include "conversions.hpp"
 
 namespace platform_sim {
 namespace {
+
+namespace topics = prf_msgs::topics;
+namespace truth = prf_msgs::ground_truth_topics;
 
 constexpr std::uint32_t kQueueSize = 1000;
 // 10 s, 92 MB: lockstep does not wait for a recorder that a busy machine holds up.
@@ -25,18 +30,18 @@ std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
 }  // namespace
 
 SimPublishers::SimPublishers(ros::NodeHandle& node)
-    : clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
-      image_(node.advertise<sensor_msgs::Image>("camera/image_raw", kImageQueueSize)),
-      camera_info_(node.advertise<sensor_msgs::CameraInfo>("camera/camera_info", kQueueSize)),
-      joint_states_(node.advertise<sensor_msgs::JointState>("joint_states", kQueueSize)),
-      diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
-      platform_(node.advertise<nav_msgs::Odometry>("ground_truth/platform", kQueueSize)),
-      base_(node.advertise<nav_msgs::Odometry>("ground_truth/base", kQueueSize)),
-      tag_(node.advertise<geometry_msgs::PoseStamped>("ground_truth/tag", kQueueSize)),
-      camera_(node.advertise<geometry_msgs::PoseStamped>("ground_truth/camera", kQueueSize)),
+    : clock_(node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueueSize)),
+      image_(node.advertise<sensor_msgs::Image>(topics::kCameraImageRaw, kImageQueueSize)),
+      camera_info_(node.advertise<sensor_msgs::CameraInfo>(topics::kCameraCameraInfo, kQueueSize)),
+      joint_states_(node.advertise<sensor_msgs::JointState>(topics::kJointStates, kQueueSize)),
+      diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics, 10)),
+      platform_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthPlatform, kQueueSize)),
+      base_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthBase, kQueueSize)),
+      tag_(node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthTag, kQueueSize)),
+      camera_(node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthCamera, kQueueSize)),
       end_effector_(
-          node.advertise<geometry_msgs::PoseStamped>("ground_truth/end_effector", kQueueSize)),
-      contacts_(node.advertise<prf_msgs::ContactArray>("ground_truth/contacts", kQueueSize)) {}
+          node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthEndEffector, kQueueSize)),
+      contacts_(node.advertise<prf_msgs::ContactArray>(truth::kGroundTruthContacts, kQueueSize)) {}
 
 void SimPublishers::publish_clock(std::int64_t now_ms) {
   rosgraph_msgs::Clock message;

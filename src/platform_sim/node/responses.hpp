@@ -21,9 +21,9 @@
 namespace platform_sim {
 
 // What comes back from the framework, or from the guiding hand.
-class Answers {
+class Responses {
  public:
-  Answers(ros::NodeHandle& node, Peer peer);
+  Responses(ros::NodeHandle& node, Peer peer);
 
   Lockstep& lockstep() { return lockstep_; }
 
@@ -41,13 +41,13 @@ class Answers {
 
  private:
   template <class Message>
-  void listen(ros::NodeHandle& node, Link link, void (Answers::*receive)(const Message&));
+  void listen(ros::NodeHandle& node, Response response, void (Responses::*receive)(const Message&));
   template <class Message>
-  void note(ros::NodeHandle& node, Link link);
+  void note(ros::NodeHandle& node, Response response);
   void receive_progress(const prf_msgs::ExecutionProgress& message);
   void receive_command(const trajectory_msgs::JointTrajectory& message);
   void receive_wrench(const geometry_msgs::WrenchStamped& message);
-  void refuse(Link link, const std::string& why);
+  void refuse(Response response, const std::string& why);
 
   Lockstep lockstep_;
   std::vector<ros::Subscriber> subscribers_;

@@ -27,15 +27,15 @@ void spin(const ros::WallDuration& longest) {
 
 double seconds(std::int64_t milliseconds) { return 1e-3 * static_cast<double>(milliseconds); }
 
-StampNs nanoseconds(std::int64_t milliseconds) { return 1'000'000 * milliseconds; }
+prf_core::Stamp stamp_at(std::int64_t now_ms) { return std::chrono::milliseconds(now_ms); }
 
 double seconds_since(const ros::WallTime& begin) { return (ros::WallTime::now() - begin).toSec(); }
 
-Peer peer_of(const SimParameters& params) {
+Peer peer_of(const SimParams& params) {
   return params.world.arm_mode == ArmMode::kServo ? Peer::kFramework : Peer::kGuide;
 }
 
-World make_world(const std::string& urdf, const WorldConfig& config) {
+World make_world(const std::string& urdf, const WorldParams& config) {
   try {
     return World(urdf, config);
   } catch (const std::invalid_argument& error) {
@@ -53,35 +53,35 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
-                       const SimParameters& params, const std::string& urdf)
+                       const SimParams& params, const std::string& urdf)
     : params_(params),
       world_(make_world(urdf, params.world)),
       camera_(urdf, world_.target(), params.camera),
       schedule_(params.camera.timing, kTickMs),
       publishers_(node),
-      answers_(node, peer_of(params)),
+      responses_(node, peer_of(params)),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
       started_(!params.paused) {
   ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
 }
 
-Simulation::Outcome Simulation::run() {
-  Outcome outcome = wait_for_start();
-  if (outcome != Outcome::kEnded) return outcome;
+Simulation::End Simulation::run() {
+  End end_reason = wait_for_start();
+  if (end_reason != End::kEnded) return end_reason;
   begin_ = last_report_ = ros::WallTime::now();
   while (!at_end()) {
     simulate_tick();
     publish_tick();
     for (Image& image : images_) render(image);  // while the framework is busy
-    outcome = wait_for_answers();
-    if (outcome != Outcome::kEnded) break;
-    apply_answers();
+    end_reason = wait_for_responses();
+    if (end_reason != End::kEnded) break;
+    apply_responses();
     keep_pace();
     report_rate();
   }
   report_end();
   if (ros::ok()) kLastMessages.sleep();
-  return outcome;
+  return end_reason;
 }
 
 bool Simulation::on_start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -91,45 +91,45 @@ bool Simulation::on_start(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
   return true;
 }
 
-Simulation::Outcome Simulation::wait_for_start() {
+Simulation::End Simulation::wait_for_start() {
   const ros::WallTime begin = ros::WallTime::now();
   if (!started_)
     ROS_INFO("paused until the service %s is called", start_service_.getService().c_str());
   while (!started_ && ros::ok()) spin(kSpin);
-  const Outcome outcome = params_.lockstep ? wait_for_connections() : Outcome::kEnded;
-  if (!ros::ok()) return Outcome::kInterrupted;
-  if (outcome == Outcome::kEnded) {
+  const End end_reason = params_.lockstep ? wait_for_connections() : End::kEnded;
+  if (!ros::ok()) return End::kInterrupted;
+  if (end_reason == End::kEnded) {
     ROS_INFO(
         "starting after %.1f s of waiting: scenario %s, motion %s, gait %s, seed %lu, lockstep %s",
         seconds_since(begin), params_.world.scenario.c_str(), params_.world.motion.c_str(),
         params_.world.gait.c_str(), params_.world.seed, params_.lockstep ? "on" : "off");
   }
-  return outcome;
+  return end_reason;
 }
 
-Simulation::Outcome Simulation::wait_for_connections() {
+Simulation::End Simulation::wait_for_connections() {
   const bool camera_too = peer_of(params_) == Peer::kFramework;
   const ros::WallTime begin = ros::WallTime::now();
   ros::WallTime changed = begin;
   unsigned connections = 0;
   while (ros::ok()) {
-    const unsigned count = publishers_.subscribers() + answers_.publishers();
+    const unsigned count = publishers_.subscribers() + responses_.publishers();
     if (count != connections) changed = ros::WallTime::now();
     connections = count;
-    const std::vector<std::string> unheard = publishers_.without_subscriber(camera_too);
-    const std::vector<std::string> unspoken = answers_.without_publisher();
-    const bool complete = unheard.empty() && unspoken.empty();
-    if (complete && seconds_since(changed) > kSettledConnections) return Outcome::kEnded;
-    if (!complete && seconds_since(begin) > params_.answer_timeout) {
+    const std::vector<std::string> unread = publishers_.without_subscriber(camera_too);
+    const std::vector<std::string> without_sender = responses_.without_publisher();
+    const bool complete = unread.empty() && without_sender.empty();
+    if (complete && seconds_since(changed) > kSettledConnections) return End::kEnded;
+    if (!complete && seconds_since(begin) > params_.response_timeout) {
       ROS_FATAL(
           "not connected within %.1f s of wall time; topics without publisher: %s; without "
           "subscriber: %s",
-          params_.answer_timeout, joined(unspoken).c_str(), joined(unheard).c_str());
-      return Outcome::kSilent;
+          params_.response_timeout, joined(without_sender).c_str(), joined(unread).c_str());
+      return End::kSilent;
     }
     spin(kSpin);
   }
-  return Outcome::kInterrupted;
+  return End::kInterrupted;
 }
 
 void Simulation::simulate_tick() {
@@ -145,7 +145,7 @@ void Simulation::simulate_tick() {
   physics_ += ros::WallTime::now() - begin;
 }
 
-// joint_states comes last: it is what the framework answers.
+// joint_states comes last: the framework responds to it.
 void Simulation::publish_tick() {
   while (std::optional<camera_sim::Frame> frame = schedule_.take_exposed())
     images_.push_back({*frame, {}});
@@ -155,13 +155,13 @@ void Simulation::publish_tick() {
     render(image);
     if (!image.pixels.empty()) {
       publishers_.publish_image(image.frame.stamp_ms, image.pixels, camera_.optics());
-      answers_.lockstep().published_image(nanoseconds(image.frame.stamp_ms));
+      responses_.lockstep().published_image(stamp_at(image.frame.stamp_ms));
     }
     images_.pop_front();
   }
   publishers_.publish_ground_truth(now_ms_, world_);
   publishers_.publish_joint_states(now_ms_, world_);
-  answers_.lockstep().published_joint_states(nanoseconds(now_ms_));
+  responses_.lockstep().published_joint_states(stamp_at(now_ms_));
 }
 
 void Simulation::render(Image& image) {
@@ -171,29 +171,30 @@ void Simulation::render(Image& image) {
   rendering_ += ros::WallTime::now() - begin;
 }
 
-Simulation::Outcome Simulation::wait_for_answers() {
+Simulation::End Simulation::wait_for_responses() {
   const ros::WallTime begin = ros::WallTime::now();
   spin(ros::WallDuration(0.0));
-  while (params_.lockstep && !answers_.lockstep().answered()) {
-    if (!ros::ok()) return Outcome::kInterrupted;
-    if (seconds_since(begin) > params_.answer_timeout) {
-      const SilentTopic silent = *answers_.lockstep().first_silent();
-      ROS_FATAL("%s is silent: no answer stamped %.3f s at tick %.3f s within %.1f s of wall time",
-                topic_name(silent.link), 1e-9 * static_cast<double>(silent.stamp), seconds(now_ms_),
-                params_.answer_timeout);
-      return Outcome::kSilent;
+  while (params_.lockstep && !responses_.lockstep().is_complete()) {
+    if (!ros::ok()) return End::kInterrupted;
+    if (seconds_since(begin) > params_.response_timeout) {
+      const SilentTopic silent = *responses_.lockstep().first_silent();
+      ROS_FATAL(
+          "%s is silent: no response stamped %.3f s at tick %.3f s within %.1f s of wall time",
+          topic_name(silent.response), prf_core::to_seconds(silent.stamp), seconds(now_ms_),
+          params_.response_timeout);
+      return End::kSilent;
     }
     spin(kSpin);
   }
   waiting_ += ros::WallTime::now() - begin;
-  return ros::ok() ? Outcome::kEnded : Outcome::kInterrupted;
+  return ros::ok() ? End::kEnded : End::kInterrupted;
 }
 
-void Simulation::apply_answers() {
-  if (const auto command = answers_.take_command()) {
+void Simulation::apply_responses() {
+  if (const auto command = responses_.take_command()) {
     world_.command_arm(command->positions, command->velocities);
   }
-  if (const auto wrench = answers_.take_wrench()) {
+  if (const auto wrench = responses_.take_wrench()) {
     world_.apply_hand_wrench(wrench->force, wrench->torque);
   }
 }
@@ -214,8 +215,8 @@ bool Simulation::at_end() {
     const std::int64_t end = now_ms_ + std::llround(1000.0 * delay);
     end_ms_ = std::min(end, end_ms_.value_or(end));
   };
-  if (answers_.finished() && !finished_) end_after(params_.end_delay);
-  finished_ = answers_.finished();
+  if (responses_.finished() && !finished_) end_after(params_.end_delay);
+  finished_ = responses_.finished();
   if (world_.fallen() && !fallen_) {
     const FrameState base = world_.base();
     const double tilt = std::acos(std::clamp(base.pose.linear()(2, 2), -1.0, 1.0));
@@ -232,7 +233,7 @@ void Simulation::report_rate() {
   const ros::WallDuration since = ros::WallTime::now() - last_report_;
   if (since.toSec() < kReportPeriod) return;
   const double factor = seconds(now_ms_ - last_report_ms_) / since.toSec();
-  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, answers_.refused());
+  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, responses_.refused());
   last_report_ = ros::WallTime::now();
   last_report_ms_ = now_ms_;
 }
@@ -241,7 +242,7 @@ void Simulation::report_end() const {
   const double wall = std::max(1e-9, seconds_since(begin_));
   ROS_INFO(
       "%.2f s simulated in %.2f s, real-time factor %.2f; physics %.0f %%, rendering %.0f %%, "
-      "waiting for answers %.0f %%",
+      "waiting for responses %.0f %%",
       seconds(now_ms_), wall, seconds(now_ms_) / wall, 100.0 * physics_.toSec() / wall,
       100.0 * rendering_.toSec() / wall, 100.0 * waiting_.toSec() / wall);
 }

@@ -22,12 +22,12 @@ namespace platform_sim {
 // Advances the world tick by tick, in lockstep with whoever moves the arm.
 class Simulation {
  public:
-  enum class Outcome { kEnded, kInterrupted, kSilent };
+  enum class End { kEnded, kInterrupted, kSilent };
 
-  Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node, const SimParameters& params,
+  Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node, const SimParams& params,
              const std::string& urdf);
 
-  Outcome run();
+  End run();
 
  private:
   struct Image {
@@ -36,25 +36,25 @@ class Simulation {
   };
 
   bool on_start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  Outcome wait_for_start();
-  Outcome wait_for_connections();
-  Outcome wait_for_answers();
+  End wait_for_start();
+  End wait_for_connections();
+  End wait_for_responses();
   void simulate_tick();
   void publish_tick();
   void render(Image& image);
-  void apply_answers();
+  void apply_responses();
   void keep_pace();
   [[nodiscard]] bool at_end();
   void report_rate();
   void report_end() const;
 
-  SimParameters params_;
+  SimParams params_;
   World world_;
   camera_sim::HandCamera camera_;
   camera_sim::CameraSchedule schedule_;
   std::deque<Image> images_;  // exposed, latency not yet over
   SimPublishers publishers_;
-  Answers answers_;
+  Responses responses_;
   ros::ServiceServer start_service_;
   bool started_;
   std::int64_t now_ms_ = 0;

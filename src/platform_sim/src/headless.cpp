@@ -2,8 +2,7 @@
 #include "platform_sim/headless.hpp"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <prf_core/require.hpp>
 
 namespace platform_sim {
 namespace {
@@ -15,13 +14,8 @@ constexpr double kLongest = 86400.0;  // s
 
 void run_headless(World& world, double duration, int rate,
                   const std::function<void(World&)>& sample) {
-  if (!(duration >= 0.0 && duration <= kLongest)) {
-    throw std::invalid_argument("duration = " + std::to_string(duration) +
-                                ", must be from 0 to 86400 s");
-  }
-  if (rate < 1 || kStepsPerSecond % rate != 0) {
-    throw std::invalid_argument("rate = " + std::to_string(rate) + ", must divide 1000 Hz");
-  }
+  prf_core::require_between("duration", duration, 0.0, kLongest, "s");
+  prf_core::require(rate >= 1 && kStepsPerSecond % rate == 0, "rate", rate, "a divisor of 1000 Hz");
   const int steps_per_sample = kStepsPerSecond / rate;
   const auto samples = static_cast<long>(std::floor(duration * rate + 1e-9));
   sample(world);

@@ -1,78 +1,83 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "platform_sim/lockstep.hpp"
 
+#include <prf_msgs/topics.h>
+
 namespace platform_sim {
 
-const char* topic_name(Link link) {
-  switch (link) {
-    case Link::kDetections:
-      return "tag_detections";
-    case Link::kForecast:
-      return "target/forecast";
-    case Link::kProgress:
-      return "execution/progress";
-    case Link::kTrajectory:
-      return "skill/trajectory";
-    case Link::kSetpoint:
-      return "execution/setpoint";
-    case Link::kCommand:
-      return "joint_command";
-    case Link::kWrench:
-      return "guide/wrench";
+const char* topic_name(Response response) {
+  switch (response) {
+    case Response::kDetections:
+      return prf_msgs::topics::kTagDetections;
+    case Response::kForecast:
+      return prf_msgs::topics::kTargetForecast;
+    case Response::kProgress:
+      return prf_msgs::topics::kExecutionProgress;
+    case Response::kTrajectory:
+      return prf_msgs::topics::kSkillTrajectory;
+    case Response::kSetpoint:
+      return prf_msgs::topics::kExecutionSetpoint;
+    case Response::kCommand:
+      return prf_msgs::topics::kJointCommand;
+    case Response::kWrench:
+      return prf_msgs::topics::kGuideWrench;
   }
   return "";
 }
 
-void Lockstep::published_image(StampNs exposure) { ask(Link::kDetections, exposure); }
-
-void Lockstep::published_joint_states(StampNs tick) {
-  ask(Link::kWrench, tick);
-  ask(Link::kProgress, tick);
-  ask(Link::kSetpoint, tick);
-  ask(Link::kCommand, tick);
+void Lockstep::published_image(prf_core::Stamp exposure) {
+  expect(Response::kDetections, exposure);
 }
 
-bool Lockstep::received(Link link, StampNs stamp) {
-  Account& from = account(link);
+void Lockstep::published_joint_states(prf_core::Stamp tick) {
+  expect(Response::kWrench, tick);
+  expect(Response::kProgress, tick);
+  expect(Response::kSetpoint, tick);
+  expect(Response::kCommand, tick);
+}
+
+bool Lockstep::received(Response response, prf_core::Stamp stamp) {
+  Expected& from = expected(response);
   if (from.last_received && stamp <= *from.last_received) return false;
   from.last_received = stamp;
-  while (!from.owed.empty() && from.owed.front() <= stamp) from.owed.pop_front();
-  if (link == Link::kDetections) ask(Link::kForecast, stamp);
+  while (!from.pending.empty() && from.pending.front() <= stamp) from.pending.pop_front();
+  if (response == Response::kDetections) expect(Response::kForecast, stamp);
   return true;
 }
 
-bool Lockstep::received_progress(StampNs stamp, StampNs forecast_stamp) {
-  if (!received(Link::kProgress, stamp)) return false;
-  if (forecast_stamp != 0 && forecast_stamp != forecast_in_force_) {
+bool Lockstep::received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp) {
+  if (!received(Response::kProgress, stamp)) return false;
+  if (forecast_stamp != prf_core::Stamp{0} && forecast_stamp != forecast_in_force_) {
     forecast_in_force_ = forecast_stamp;
-    ask(Link::kTrajectory, stamp);
+    expect(Response::kTrajectory, stamp);
   }
   return true;
 }
 
-bool Lockstep::answered() const {
-  return account(Link::kWrench).owed.empty() && account(Link::kProgress).owed.empty() &&
-         account(Link::kCommand).owed.empty();
+bool Lockstep::is_complete() const {
+  return expected(Response::kWrench).pending.empty() &&
+         expected(Response::kProgress).pending.empty() &&
+         expected(Response::kCommand).pending.empty();
 }
 
 std::optional<SilentTopic> Lockstep::first_silent() const {
   std::optional<SilentTopic> silent;
-  for (std::size_t i = 0; i < kLinkCount; ++i) {
-    const std::deque<StampNs>& owed = accounts_[i].owed;
-    if (owed.empty()) continue;
-    if (!silent || owed.front() < silent->stamp) {
-      silent = SilentTopic{static_cast<Link>(i), owed.front()};
+  for (std::size_t i = 0; i < kResponseCount; ++i) {
+    const std::deque<prf_core::Stamp>& pending = expected_[i].pending;
+    if (pending.empty()) continue;
+    if (!silent || pending.front() < silent->stamp) {
+      silent = SilentTopic{static_cast<Response>(i), pending.front()};
     }
   }
   return silent;
 }
 
-void Lockstep::ask(Link link, StampNs stamp) {
-  const bool of_framework = link != Link::kWrench;
+void Lockstep::expect(Response response, prf_core::Stamp stamp) {
+  const bool of_framework = response != Response::kWrench;
   if (of_framework != (peer_ == Peer::kFramework)) return;
-  Account& of = account(link);
+  Expected& of = expected(response);
   if (of.last_received && stamp <= *of.last_received) return;
-  if (of.owed.empty() || stamp > of.owed.back()) of.owed.push_back(stamp);
+  if (of.pending.empty() || stamp > of.pending.back()) of.pending.push_back(stamp);
 }
 
 }  // namespace platform_sim

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <prf_core/require.hpp>
 #include <random>
-#include <stdexcept>
 
 namespace platform_sim {
 namespace {
@@ -14,9 +14,7 @@ constexpr std::uint64_t kStream = 0x7661726965730000;  // apart from the seed's 
 }  // namespace
 
 Variation Variation::draw(std::uint64_t seed, double scale, const VariationSpread& spread) {
-  if (!(scale >= 0.0 && scale <= 1.0)) {
-    throw std::invalid_argument("variation = " + std::to_string(scale) + ", must be from 0 to 1");
-  }
+  prf_core::require_between("variation", scale, 0.0, 1.0);
   std::mt19937_64 generator(seed ^ kStream);
   const auto within = [&](double half) {
     const double even = std::ldexp(static_cast<double>(generator() >> 11), -53);
@@ -32,7 +30,7 @@ Variation Variation::draw(std::uint64_t seed, double scale, const VariationSprea
   return drawn;
 }
 
-void Variation::apply_to(WorldConfig& config) const {
+void Variation::apply_to(WorldParams& config) const {
   config.target.tag_position_in_platform += box_position;
   config.target.yaw += box_yaw;
   config.base_start_x += robot_position.x();

@@ -12,7 +12,7 @@
 #include "physics/base_carrier.hpp"
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
-#include "require.hpp"
+#include "prf_core/require.hpp"
 #include "v60_gait/gaits.hpp"
 #include "v60_gait/gravity.hpp"
 #include "v60_gait/leg_sensors.hpp"
@@ -23,15 +23,17 @@
 namespace platform_sim {
 namespace {
 
-constexpr double kSettlingTime = 2.0;   // s
 constexpr double kFallenHeight = 0.30;  // m, base over the deck
 constexpr double kFallenTilt = 0.7;     // rad
+constexpr double kSettlingTime = 2.0;  // s, until legs and contacts are at rest
 
-// A stiff contact with damping: a rigid one creeps.
+// A stiff contact with damping: Bullet's rigid one creeps. A leg that carries a quarter of the
+// robot sinks in by 1.4 mm; the damping is about critical for its share of the mass.
 constexpr double kFootStiffness = 1e5;  // N/m
 constexpr double kFootDamping = 3e3;    // N s/m
-constexpr double kArmStiffness = 2e4;
-constexpr double kArmDamping = 2e2;
+// Softer, so that the light links of the arm do not bounce at 1 kHz.
+constexpr double kArmStiffness = 2e4;  // N/m
+constexpr double kArmDamping = 2e2;    // N s/m
 
 const std::string kHandLink = "j2s7s300_end_effector";
 const std::string kArmLinkPrefix = "j2s7s300_link_";
@@ -72,7 +74,7 @@ std::vector<CuboidBody::Part> to_parts(const std::vector<camera_sim::Cuboid>& cu
 
 class World::Impl {
  public:
-  Impl(const std::string& urdf_xml, const WorldConfig& config);
+  Impl(const std::string& urdf_xml, const WorldParams& config);
 
   void step();
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
@@ -91,7 +93,7 @@ class World::Impl {
   ContactRecorder contacts;
 
  private:
-  void place_robot(const WorldConfig& config);
+  void place_robot(const WorldParams& config);
   void settle();
   void drive_legs();
   [[nodiscard]] v60_gait::LegObservation observe_legs();
@@ -117,14 +119,12 @@ class World::Impl {
   v60_gait::LegSensors sensors_;
   std::optional<v60_gait::Operator> operator_;
   std::unique_ptr<ArmDrive> arm_;
-  ArmServo* servo_ = nullptr;          // arm_, in servo mode
-  CompliantArm* compliant_ = nullptr;  // arm_, in compliant mode
   v60_gait::LegVector leg_efforts_ = v60_gait::LegVector::Zero();
   std::int64_t steps_ = 0;
   bool fallen_ = false;
 };
 
-World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
+World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
     : motion_(config.motion, config.seed),
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
@@ -154,24 +154,21 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldConfig& config)
   if (target_.on_cart) push_.emplace(CartPush::draw(config.seed));
   place_robot(config);
   if (config.arm_mode == ArmMode::kServo) {
-    auto servo = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
-                                            config.arm_latency);
-    servo_ = servo.get();
-    arm_ = std::move(servo);
+    arm_ = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
+                                      config.arm_latency);
   } else {
-    auto compliant = std::make_unique<CompliantArm>(scene_, robot_, arm_joints, kHandLink);
-    compliant_ = compliant.get();
-    arm_ = std::move(compliant);
+    arm_ = std::make_unique<CompliantArm>(scene_, robot_, arm_joints, kHandLink);
   }
   settle();
 }
 
-void World::Impl::place_robot(const WorldConfig& config) {
+void World::Impl::place_robot(const WorldParams& config) {
   for (std::size_t i = 0; i < arm_joints_.size(); ++i) {
     const v60_gait::RobotJoint& joint = *arm_joints_[i];
     const double position = config.arm_start[static_cast<Eigen::Index>(i)];
     if (joint.has_position_limits) {
-      require_between("arm_start of joint " + joint.name, position, joint.lower, joint.upper);
+      prf_core::require_between("arm_start of joint " + joint.name, position, joint.lower,
+                                joint.upper, "rad");
     }
     robot_.set_position(joint, position);
   }
@@ -236,7 +233,8 @@ v60_gait::LegObservation World::Impl::observe_legs() {
   observation.attitude = Eigen::Quaterniond(base.pose.linear());
   observation.angular_velocity = base.pose.linear().transpose() * base.angular;
   if (time() >= 0.0) {
-    observation.stick = operator_->stick(time(), motion_.deck(time()).pose.inverse() * base.pose);
+    observation.joystick =
+        operator_->joystick(time(), motion_.deck(time()).pose.inverse() * base.pose);
   }
   return sensors_.measure(observation);
 }
@@ -266,21 +264,17 @@ void World::Impl::judge_fall(const std::vector<ContactPoint>& points) {
 }
 
 void World::Impl::command_arm(const ArmVector& positions, const ArmVector& velocities) {
-  if (servo_ == nullptr) throw std::invalid_argument("command_arm needs arm_mode kServo");
   if (!positions.allFinite() || !velocities.allFinite()) {
     throw std::invalid_argument("command_arm: positions and velocities must be finite");
   }
-  servo_->command(positions, velocities, time());
+  arm_->command(positions, velocities, time());
 }
 
 void World::Impl::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
-  if (compliant_ == nullptr) {
-    throw std::invalid_argument("apply_hand_wrench needs arm_mode kCompliant");
-  }
   if (!force.allFinite() || !torque.allFinite()) {
     throw std::invalid_argument("apply_hand_wrench: force and torque must be finite");
   }
-  compliant_->apply_hand_wrench(force, torque);
+  arm_->apply_hand_wrench(force, torque);
 }
 
 void World::Impl::push(const std::string& link, const Eigen::Vector3d& force) {
@@ -314,7 +308,7 @@ FrameState World::Impl::tag() const {
   return state;
 }
 
-World::World(const std::string& urdf_xml, const WorldConfig& config) {
+World::World(const std::string& urdf_xml, const WorldParams& config) {
   config.validate();
   impl_ = std::make_unique<Impl>(urdf_xml, config);
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stand-in for the framework that answers every tick, and the simulator as a child process."""
+"""A stand-in for the framework that responds to every tick, and the simulator as a child process."""
 import hashlib
 import io
 import os
@@ -80,7 +80,7 @@ class Simulator:
 
 
 class FakeFramework:
-    """Answers each question of the simulator at once; some topics can be mute from some time on."""
+    """Responses each question of the simulator at once; some topics can be mute from some time on."""
 
     def __init__(self, mute=None, mute_from=0.0, absent=(), done_at=None, forecast=False,
                  positions=None, guide=False):
@@ -134,14 +134,14 @@ class FakeFramework:
             self.say("tag_detections", TagDetectionArray(header=message.header))
             self.say("target/forecast", TargetForecast(header=message.header))
         elif name == "joint_states":
-            self.answer(message.header.stamp)
+            self.respond(message.header.stamp)
 
     def say(self, name, message):
         is_mute = name == self.mute and message.header.stamp.to_sec() >= self.mute_from
         if name in self.publishers and not is_mute:
             self.publishers[name].publish(message)
 
-    def answer(self, stamp):
+    def respond(self, stamp):
         progress = ExecutionProgress()
         progress.header.stamp = stamp
         if self.forecast:

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "test_robots.hpp"
+#include "small_robots.hpp"
 
 namespace platform_sim {
 namespace {
@@ -73,7 +73,7 @@ TEST(ArmServo, FollowsAMovingCommandWithinOnePeriodAndStopsWithoutOne) {
 }
 
 // After a step that needs neither all speed nor all torque: q(t) = goal (1 - exp(-gain t)).
-TEST(ArmServo, AnswersAStepAsAFirstOrderLag) {
+TEST(ArmServo, RespondsToAStepAsAFirstOrderLag) {
   Arm arm;
   ArmServo servo(arm.scene, arm.robot, kJoints, 20.0, 0.0);
   const Eigen::Vector2d goal(0.004, -0.002);

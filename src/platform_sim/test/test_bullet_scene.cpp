@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "physics/multibody_from_urdf.hpp"
-#include "test_robots.hpp"
+#include "small_robots.hpp"
 
 namespace platform_sim {
 namespace {

@@ -7,19 +7,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "robot_urdf.hpp"
+#include "v60_world.hpp"
 
 namespace platform_sim {
 namespace {
 
-WorldConfig folded_arm() {
-  WorldConfig config;
-  config.arm_start << 3.14, 2.3, 0.0, 1.5, 0.0, 3.4, 0.0;
-  return config;
-}
-
 TEST(RunHeadless, SamplesEvenlyFromNowToTheEndAndHoldsTheArm) {
-  WorldConfig config = folded_arm();
+  WorldParams config = folded_arm();
   config.motion = "heavy";
   World world(robot_urdf(), config);
   std::vector<double> times;
@@ -34,7 +28,7 @@ TEST(RunHeadless, SamplesEvenlyFromNowToTheEndAndHoldsTheArm) {
 }
 
 TEST(RunHeadless, EndsWhenTheRobotHasFallen) {
-  WorldConfig config = folded_arm();
+  WorldParams config = folded_arm();
   config.arm_mode = ArmMode::kCompliant;
   World world(robot_urdf(), config);
   world.apply_hand_wrench(Eigen::Vector3d(0.0, 600.0, 0.0), Eigen::Vector3d::Zero());

@@ -6,72 +6,73 @@
 namespace platform_sim {
 namespace {
 
-constexpr StampNs kMs = 1'000'000;
+constexpr prf_core::Stamp kMs = std::chrono::milliseconds(1);
+constexpr prf_core::Stamp kNone{0};
 
-void expect_silent(const Lockstep& lockstep, Link link, StampNs stamp) {
+void expect_silent(const Lockstep& lockstep, Response response, prf_core::Stamp stamp) {
   const std::optional<SilentTopic> silent = lockstep.first_silent();
   ASSERT_TRUE(silent);
-  EXPECT_STREQ(topic_name(silent->link), topic_name(link));
+  EXPECT_STREQ(topic_name(silent->response), topic_name(response));
   EXPECT_EQ(silent->stamp, stamp);
 }
 
-void answer_tick(Lockstep& lockstep, StampNs tick, StampNs forecast_stamp) {
+void respond_to_tick(Lockstep& lockstep, prf_core::Stamp tick, prf_core::Stamp forecast_stamp) {
   lockstep.received_progress(tick, forecast_stamp);
-  lockstep.received(Link::kSetpoint, tick);
-  lockstep.received(Link::kCommand, tick);
+  lockstep.received(Response::kSetpoint, tick);
+  lockstep.received(Response::kCommand, tick);
 }
 
 TEST(Lockstep, NeedsCommandAndProgressOfTheTick) {
   Lockstep lockstep(Peer::kFramework);
   lockstep.published_joint_states(10 * kMs);
-  EXPECT_FALSE(lockstep.answered());
-  lockstep.received(Link::kCommand, 10 * kMs);
-  EXPECT_FALSE(lockstep.answered());
-  lockstep.received_progress(10 * kMs, 0);
-  EXPECT_TRUE(lockstep.answered());
+  EXPECT_FALSE(lockstep.is_complete());
+  lockstep.received(Response::kCommand, 10 * kMs);
+  EXPECT_FALSE(lockstep.is_complete());
+  lockstep.received_progress(10 * kMs, kNone);
+  EXPECT_TRUE(lockstep.is_complete());
 }
 
-TEST(Lockstep, DoesNotTakeAnOldAnswerForTheTick) {
+TEST(Lockstep, DoesNotTakeAnOldResponseForTheTick) {
   Lockstep lockstep(Peer::kFramework);
   lockstep.published_joint_states(10 * kMs);
-  answer_tick(lockstep, 10 * kMs, 0);
+  respond_to_tick(lockstep, 10 * kMs, kNone);
   lockstep.published_joint_states(20 * kMs);
-  EXPECT_FALSE(lockstep.received(Link::kCommand, 10 * kMs));
-  EXPECT_FALSE(lockstep.received_progress(10 * kMs, 0));
-  EXPECT_FALSE(lockstep.answered());
-  answer_tick(lockstep, 20 * kMs, 0);
-  EXPECT_TRUE(lockstep.answered());
+  EXPECT_FALSE(lockstep.received(Response::kCommand, 10 * kMs));
+  EXPECT_FALSE(lockstep.received_progress(10 * kMs, kNone));
+  EXPECT_FALSE(lockstep.is_complete());
+  respond_to_tick(lockstep, 20 * kMs, kNone);
+  EXPECT_TRUE(lockstep.is_complete());
   EXPECT_FALSE(lockstep.first_silent());
 }
 
 TEST(Lockstep, NamesEveryLinkOfTheChainWhenItAloneIsSilent) {
-  for (const Link mute : {Link::kDetections, Link::kForecast, Link::kProgress, Link::kTrajectory,
-                          Link::kSetpoint, Link::kCommand}) {
+  for (const Response mute : {Response::kDetections, Response::kForecast, Response::kProgress,
+                              Response::kTrajectory, Response::kSetpoint, Response::kCommand}) {
     Lockstep lockstep(Peer::kFramework);
-    // Each answer exists only if what it answers exists.
+    // Each response exists only if what it responds to exists.
     lockstep.published_image(10 * kMs);
     lockstep.published_joint_states(50 * kMs);
-    answer_tick(lockstep, 50 * kMs, 0);
+    respond_to_tick(lockstep, 50 * kMs, kNone);
     lockstep.published_joint_states(60 * kMs);
-    StampNs expected = 10 * kMs;
-    const bool sees = mute != Link::kDetections;
-    const bool predicts = sees && mute != Link::kForecast;
-    if (sees) lockstep.received(Link::kDetections, 10 * kMs);
+    prf_core::Stamp expected = 10 * kMs;
+    const bool sees = mute != Response::kDetections;
+    const bool predicts = sees && mute != Response::kForecast;
+    if (sees) lockstep.received(Response::kDetections, 10 * kMs);
     if (predicts) {
-      lockstep.received(Link::kForecast, 10 * kMs);
+      lockstep.received(Response::kForecast, 10 * kMs);
       expected = 60 * kMs;
-      if (mute != Link::kProgress) {
+      if (mute != Response::kProgress) {
         lockstep.received_progress(60 * kMs, 10 * kMs);
-        if (mute != Link::kTrajectory) lockstep.received(Link::kTrajectory, 60 * kMs);
-        if (mute != Link::kSetpoint) lockstep.received(Link::kSetpoint, 60 * kMs);
-        if (mute == Link::kTrajectory) {  // the decision goes on for one tick, then waits
-          lockstep.received(Link::kCommand, 60 * kMs);
-          EXPECT_TRUE(lockstep.answered());
+        if (mute != Response::kTrajectory) lockstep.received(Response::kTrajectory, 60 * kMs);
+        if (mute != Response::kSetpoint) lockstep.received(Response::kSetpoint, 60 * kMs);
+        if (mute == Response::kTrajectory) {  // the decision goes on for one tick, then waits
+          lockstep.received(Response::kCommand, 60 * kMs);
+          EXPECT_TRUE(lockstep.is_complete());
           lockstep.published_joint_states(70 * kMs);
         }
       }
     }
-    EXPECT_FALSE(lockstep.answered());
+    EXPECT_FALSE(lockstep.is_complete());
     expect_silent(lockstep, mute, expected);
   }
 }
@@ -79,41 +80,42 @@ TEST(Lockstep, NamesEveryLinkOfTheChainWhenItAloneIsSilent) {
 TEST(Lockstep, AsksForATrajectoryOncePerForecast) {
   Lockstep lockstep(Peer::kFramework);
   lockstep.published_joint_states(10 * kMs);
-  answer_tick(lockstep, 10 * kMs, 5 * kMs);
-  expect_silent(lockstep, Link::kTrajectory, 10 * kMs);
-  lockstep.received(Link::kTrajectory, 10 * kMs);
+  respond_to_tick(lockstep, 10 * kMs, 5 * kMs);
+  expect_silent(lockstep, Response::kTrajectory, 10 * kMs);
+  lockstep.received(Response::kTrajectory, 10 * kMs);
   lockstep.published_joint_states(20 * kMs);
-  answer_tick(lockstep, 20 * kMs, 5 * kMs);
+  respond_to_tick(lockstep, 20 * kMs, 5 * kMs);
   EXPECT_FALSE(lockstep.first_silent());
 }
 
-TEST(Lockstep, AcceptsAnAnswerThatArrivesBeforeItsQuestion) {
+TEST(Lockstep, AcceptsAResponseThatArrivesBeforeItIsExpected) {
   Lockstep lockstep(Peer::kFramework);
-  lockstep.received(Link::kForecast, 10 * kMs);
-  lockstep.received(Link::kDetections, 10 * kMs);
-  lockstep.received(Link::kTrajectory, 50 * kMs);
+  lockstep.received(Response::kForecast, 10 * kMs);
+  lockstep.received(Response::kDetections, 10 * kMs);
+  lockstep.received(Response::kTrajectory, 50 * kMs);
   lockstep.received_progress(50 * kMs, 10 * kMs);
   EXPECT_FALSE(lockstep.first_silent());
 }
 
-TEST(Lockstep, NamesTheOldestImageThatWasNotAnswered) {
+TEST(Lockstep, NamesTheOldestImageWithoutResponse) {
   Lockstep lockstep(Peer::kFramework);
-  for (const StampNs stamp : {10 * kMs, 43 * kMs, 77 * kMs}) lockstep.published_image(stamp);
-  lockstep.received(Link::kDetections, 10 * kMs);
-  lockstep.received(Link::kForecast, 10 * kMs);
-  expect_silent(lockstep, Link::kDetections, 43 * kMs);
+  for (const prf_core::Stamp stamp : {10 * kMs, 43 * kMs, 77 * kMs})
+    lockstep.published_image(stamp);
+  lockstep.received(Response::kDetections, 10 * kMs);
+  lockstep.received(Response::kForecast, 10 * kMs);
+  expect_silent(lockstep, Response::kDetections, 43 * kMs);
 }
 
 TEST(Lockstep, AsksOnlyTheGuideWhileAHandGuidesTheArm) {
   Lockstep lockstep(Peer::kGuide);
   lockstep.published_image(10 * kMs);
-  lockstep.received(Link::kDetections, 10 * kMs);
+  lockstep.received(Response::kDetections, 10 * kMs);
   lockstep.published_joint_states(50 * kMs);
-  expect_silent(lockstep, Link::kWrench, 50 * kMs);
-  answer_tick(lockstep, 50 * kMs, 10 * kMs);
-  EXPECT_FALSE(lockstep.answered());
-  lockstep.received(Link::kWrench, 50 * kMs);
-  EXPECT_TRUE(lockstep.answered());
+  expect_silent(lockstep, Response::kWrench, 50 * kMs);
+  respond_to_tick(lockstep, 50 * kMs, 10 * kMs);
+  EXPECT_FALSE(lockstep.is_complete());
+  lockstep.received(Response::kWrench, 50 * kMs);
+  EXPECT_TRUE(lockstep.is_complete());
   EXPECT_FALSE(lockstep.first_silent());
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "robot_urdf.hpp"
-#include "test_robots.hpp"
+#include "small_robots.hpp"
 #include "v60_gait/gravity.hpp"
 #include "v60_gait/leg_model.hpp"
+#include "v60_world.hpp"
 
 namespace platform_sim {
 namespace {

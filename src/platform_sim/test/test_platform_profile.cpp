@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "files.hpp"
 #include "platform_sim/platform_motion.hpp"
+#include "temporary_file.hpp"
 
 namespace platform_sim {
 namespace {

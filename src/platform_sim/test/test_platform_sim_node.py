@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from fake_framework import ARM, NODE, FakeFramework, Simulator, config  # noqa: E402
 
-SHORT = {"time_limit": 0.5, "answer_timeout": 5.0}
+SHORT = {"time_limit": 0.5, "response_timeout": 5.0}
 
 
 class LockstepTest(unittest.TestCase):
@@ -127,26 +127,26 @@ class SilenceTest(unittest.TestCase):
                 if name != "joint_command":
                     peer.publishers["joint_command"] = MutedFrom(
                         peer.publishers["joint_command"], mute_from + 0.08)
-                code, output = peer.run(answer_timeout=2.0)
+                code, output = peer.run(response_timeout=2.0)
             self.assertEqual(code, 3, output)
             self.assertIn(f"{name} is silent", output)
 
     def test_names_the_trajectory_that_the_decision_waits_for(self):
         with FakeFramework(forecast=True, mute="execution/progress", mute_from=0.11) as peer:
-            code, output = peer.run(answer_timeout=2.0)
+            code, output = peer.run(response_timeout=2.0)
         self.assertEqual(code, 3, output)
         self.assertIn("skill/trajectory is silent", output)
         self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
 
     def test_names_what_is_missing_at_the_start(self):
         with FakeFramework(absent=["skill/trajectory"]) as peer:
-            code, output = Simulator(answer_timeout=2.0).wait()
+            code, output = Simulator(response_timeout=2.0).wait()
         self.assertEqual(code, 3, output)
         self.assertIn("without publisher: /skill/trajectory;", output)
         self.assertEqual(peer.messages["joint_states"], [])
 
     def test_names_everything_when_it_is_alone(self):
-        code, output = Simulator(answer_timeout=1.0).wait()
+        code, output = Simulator(response_timeout=1.0).wait()
         self.assertEqual(code, 3, output)
         for name in ("/joint_states", "/camera/image_raw", "/joint_command", "/execution/progress"):
             self.assertIn(name, output)
@@ -165,7 +165,7 @@ class StartTest(unittest.TestCase):
         self.assertTrue(peer.messages["joint_states"])
 
     def test_ends_promptly_when_interrupted(self):
-        for changes, peer in (({"paused": True}, False), ({"answer_timeout": 60.0}, False),
+        for changes, peer in (({"paused": True}, False), ({"response_timeout": 60.0}, False),
                               ({"time_limit": 1000.0}, True)):
             framework = FakeFramework() if peer else None
             simulator = Simulator(**changes)
@@ -186,8 +186,8 @@ class ParameterTest(unittest.TestCase):
         ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
         ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
         ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
-        ("lockstep", "yes"), ("paused", 1), ("answer_timeout", 0.0),
-        ("answer_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
+        ("lockstep", "yes"), ("paused", 1), ("response_timeout", 0.0),
+        ("response_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
         ("time_limit", float("nan")), ("end_delay", -1.0), ("no_such_parameter", 1),
     ]
     CAMERA_CATALOGUE = [

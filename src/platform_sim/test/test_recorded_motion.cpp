@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "files.hpp"
 #include "motion/body_motion.hpp"
+#include "temporary_file.hpp"
 
 namespace platform_sim {
 namespace {
@@ -115,8 +115,8 @@ TEST(BodyMotion, RefusesOtherColumnsAndPosesOutOfBounds) {
   const std::string header = "time,x,y,z,roll,pitch,yaw";
   const std::vector<std::pair<std::string, std::string>> faults{
       {body_recording("time,x,y,z,roll,pitch,turn", "0,0,0.5,0,0,0"), "header must be"},
-      {body_recording(header, "1.5,0,0.5,0,0,0"), "largest x = 1.5, must be at most 1"},
-      {body_recording(header, "0,0,0.5,0,0.8,0"), "largest pitch = 0.8, must be at most 0.7"},
+      {body_recording(header, "1.5,0,0.5,0,0,0"), "largest x = 1.5, must be within [0, 1]"},
+      {body_recording(header, "0,0,0.5,0,0.8,0"), "largest pitch = 0.8, must be within [0, 0.7]"},
       {body_recording(header, "0,0,0.1,0,0,0"), "lowest z = 0.1"},
   };
   for (const auto& [text, complaint] : faults) {

@@ -39,7 +39,7 @@ TEST(Variation, FillsItsSpreadEvenlyAndNeverLeavesIt) {
 
 TEST(Variation, AlwaysGivesAValidWorld) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    WorldConfig config;
+    WorldParams config;
     Variation::draw(seed, 1.0).apply_to(config);
     EXPECT_NO_THROW(config.validate()) << seed;
   }

@@ -21,7 +21,7 @@ constexpr char kHand[] = "j2s7s300_end_effector";
 constexpr char kCamera[] = "camera_optical_frame";
 
 struct Recording {
-  platform_sim::WorldConfig config;
+  platform_sim::WorldParams config;
   double duration = 40.0;  // s
   int rate = 100;          // Hz
   std::string out;

@@ -3,6 +3,8 @@
 // truth.
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <prf_msgs/ground_truth_topics.h>
+#include <prf_msgs/topics.h>
 #include <ros/ros.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -15,15 +17,19 @@
 namespace scene_drawing {
 namespace {
 
+namespace topics = prf_msgs::topics;
+namespace truth = prf_msgs::ground_truth_topics;
+
 constexpr int kEvery = 5;  // ticks: 20 Hz
 
 class SceneMarkers {
  public:
   explicit SceneMarkers(ros::NodeHandle node)
-      : publisher_(node.advertise<visualization_msgs::MarkerArray>("scene_markers", 10)) {
-    subscribers_ = {node.subscribe("ground_truth/platform", 100, &SceneMarkers::on_odometry, this),
-                    node.subscribe("ground_truth/base", 100, &SceneMarkers::on_odometry, this),
-                    node.subscribe("ground_truth/tag", 100, &SceneMarkers::on_tag, this)};
+      : publisher_(node.advertise<visualization_msgs::MarkerArray>(topics::kSceneMarkers, 10)) {
+    subscribers_ = {
+        node.subscribe(truth::kGroundTruthPlatform, 100, &SceneMarkers::on_odometry, this),
+        node.subscribe(truth::kGroundTruthBase, 100, &SceneMarkers::on_odometry, this),
+        node.subscribe(truth::kGroundTruthTag, 100, &SceneMarkers::on_tag, this)};
   }
 
  private:

@@ -5,21 +5,20 @@
 
 namespace v60_gait {
 
-/// The attitude, relative to level, that a body on a sloping deck takes: a part of the slope,
-/// behind it by a first-order lag, and rolled about the line between its feet when it is moved
-/// sideways.
+/// Desired attitude of the body on a sloping deck, relative to level: a part of the slope through a
+/// first-order lag, plus roll and yaw in proportion to the body's lateral offset over its feet.
 class AttitudeReference {
  public:
   struct Gains {
     double leaning = 1.0;  ///< part of the deck's slope that the body follows
     double lag = 0.0;      ///< s
-    double banking = 0.0;  ///< rad of roll per m of the body's way to the right
-    double heading = 0.0;  ///< rad of yaw per m of the body's way to the right
+    double banking = 0.0;  ///< rad of roll per m of offset to the right
+    double heading = 0.0;  ///< rad of yaw per m of offset to the right
   };
 
   explicit AttitudeReference(const Gains& gains) : gains_(gains) {}
 
-  /// `slope`: pitch and roll of the deck, rad; `side`: way of the body to the left, m.
+  /// `slope`: pitch and roll of the deck, rad; `side`: lateral offset of the body to the left, m.
   void update(const Eigen::Vector2d& slope, double side, double duration) {
     if (duration > 0.0)
       lean_ += duration / (gains_.lag + duration) * (gains_.leaning * slope - lean_);

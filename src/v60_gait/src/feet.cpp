@@ -7,7 +7,7 @@
 namespace v60_gait {
 namespace {
 
-constexpr double kSlopeLearning = 12.0;  // 1/s
+constexpr double kSlopeLearning = 12.0;  // 1/s, well above the deck's 2.4 rad/s
 
 Eigen::Vector3d mean_on_ground(const Feet& feet, const std::array<Eigen::Vector3d, 4>& values) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -6,9 +6,9 @@
 namespace v60_gait {
 namespace {
 
-constexpr int kIterations = 60;
-constexpr double kLength = 0.3;           // m, weighs torque against force
-constexpr double kRegularisation = 1e-3;  // a
+constexpr int kIterations = 60;           // within 1 N of the minimum, as the test shows
+constexpr double kLength = 0.3;           // l, m, about half the distance of the feet
+constexpr double kRegularisation = 1e-3;  // a, makes the minimum unique
 
 // Nearest point of the cone |(x, y)| <= mu z.
 Eigen::Vector3d project_on_cone(const Eigen::Vector3d& force, double friction) {

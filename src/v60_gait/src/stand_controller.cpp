@@ -28,12 +28,12 @@ LegVector StandController::torques(const LegObservation& observed) {
   const Feet feet = observe_feet(stance_, observation, {true, true, true, true});
   slope_.update(feet, duration);
   BodyError error;
-  error.way = body_over_feet(feet) + Eigen::Vector3d(0.0, 0.0, stance_.toes_in_base[0].z());
+  error.position = body_over_feet(feet) + Eigen::Vector3d(0.0, 0.0, stance_.toes_in_base[0].z());
   error.velocity = body_velocity_over_feet(feet);
-  attitude_.update(slope_.slope(), error.way.y(), duration);
+  attitude_.update(slope_.slope(), error.position.y(), duration);
   const auto& toes = feet.positions;
   const double yaw = yaw_of(toes[0] + toes[1] - toes[2] - toes[3]);
-  error.turn = rotation_vector(observation.attitude, attitude_.attitude(yaw));
+  error.rotation = rotation_vector(observation.attitude, attitude_.attitude(yaw));
   error.angular_velocity = observation.attitude * observation.angular_velocity;
   return model_.torques(observation, feet, error);
 }

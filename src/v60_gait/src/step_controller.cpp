@@ -14,7 +14,7 @@ constexpr double kPi = 3.14159265358979323846;
 // errors.
 constexpr double kSlowCadence = 1.25;     // 1/s, at rest
 constexpr double kFastCadence = 1.37;     // 1/s
-constexpr double kQuietSpeed = 0.03;      // m/s, of the body over the deck
+constexpr double kRestSpeed = 0.03;       // m/s, of the body over the deck
 constexpr double kCadencePerSpeed = 2.5;  // 1/m
 constexpr double kDuty = 0.51;            // part of the cycle that a foot is down
 constexpr double kLift = 0.14;            // m
@@ -24,21 +24,21 @@ const AttitudeReference::Gains kAttitude{1.0, 0.05, 0.25, 0.55};
 constexpr double kHeldPoint = 0.1;  // m ahead of base_link: what is held at the standing height
 // Standard deviation of where a pair of feet lands: ahead, m, to the left, m, and turned, rad; per
 // rad/s of the body's roll and pitch, to which what there is at rest is added.
-const Eigen::Vector3d kPlacing(0.04, 0.010, 0.045);
-constexpr double kRestlessness = 0.025;  // rad/s
+const Eigen::Vector3d kPlacingError(0.04, 0.010, 0.045);
+constexpr double kRestAngularSpeed = 0.025;  // rad/s
 
-constexpr double kSmoothing = 2.0;   // s, of speed and turning
-constexpr double kBalance = 0.05;    // s2, standing height / g
-constexpr double kLearning = 0.05;   // 1/s, of where the body balances
-constexpr double kSwing = 2000.0;    // N/m
-constexpr double kSwingRate = 60.0;  // N s/m
-constexpr double kPressDown = 0.01;  // m, aim of a foot below the ground so that it lands
+constexpr double kSmoothingTime = 2.0;         // s, of speed and angular speed
+constexpr double kBalanceGain = 0.05;          // s2, standing height / g
+constexpr double kBalanceLearningRate = 0.05;  // 1/s, of where the body balances
+constexpr double kSwingStiffness = 2000.0;     // N/m
+constexpr double kSwingDamping = 60.0;         // N s/m
+constexpr double kLandingDepth = 0.01;  // m, a foot aims so far below the ground that it lands
 
-// When the feet are evenly about the centre of mass, which is not under the base's origin, the legs
-// have taken it along by a tenth of their way: they are a fifth of the weight.
+// The legs are a fifth of the weight. When the feet have moved until they are evenly about the
+// centre of mass, the legs have moved it by a tenth of that way.
 BodyModel over_balanced_feet(BodyModel body) {
-  constexpr double kTakenAlong = 0.1;
-  body.centre_of_mass_in_base.head<2>() *= 1.0 + kTakenAlong;
+  constexpr double kMovedByLegs = 0.1;
+  body.centre_of_mass_in_base.head<2>() *= 1.0 + kMovedByLegs;
   return body;
 }
 
@@ -79,17 +79,18 @@ LegVector StepController::torques(const LegObservation& observed) {
   return torques;
 }
 
-// A pair lands at each half cycle: the body is then held over where it came down, and the other
-// pair will be off by something else.
+// A pair of feet lands at each half cycle. The body is then held over where it landed, and the next
+// pair gets a placing error of its own.
 void StepController::advance(double time, double duration) {
   if (time < 0.0) return;
   const double half_cycles = std::floor(2.0 * cycles_);
   cycles_ += cadence_ * duration;
   if (std::floor(2.0 * cycles_) == half_cycles) return;
-  way_ -= placing_error_.head<2>();
+  offset_ -= placing_error_.head<2>();
   yaw_ += placing_error_.z();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    placing_error_[i] = kPlacing[i] * (kRestlessness + turning_) * normal_(generator_);
+    placing_error_[i] =
+        kPlacingError[i] * (kRestAngularSpeed + angular_speed_) * normal_(generator_);
   }
 }
 
@@ -103,18 +104,18 @@ void StepController::estimate(const LegObservation& observation, const Feet& fee
                               double duration) {
   velocity_ = body_velocity_over_feet(feet);
   if (observation.time < 0.0) {
-    way_ = body_over_feet(feet).head<2>() + balance_;
+    offset_ = body_over_feet(feet).head<2>() + balance_;
   } else {
-    way_ += duration * (velocity_ - observation.stick).head<2>();
-    balance_ += duration * kLearning * way_;
+    offset_ += duration * (velocity_ - observation.joystick).head<2>();
+    balance_ += duration * kBalanceLearningRate * offset_;
   }
-  yaw_ += duration * observation.stick.z();
+  yaw_ += duration * observation.joystick.z();
   slope_.update(feet, duration);
-  attitude_.update(slope_.slope(), way_.y(), duration);
-  const double part = duration / (kSmoothing + duration);
+  attitude_.update(slope_.slope(), offset_.y(), duration);
+  const double part = duration / (kSmoothingTime + duration);
   speed_ += part * (velocity_.head<2>().norm() - speed_);
-  turning_ += part * (observation.angular_velocity.head<2>().norm() - turning_);
-  cadence_ = std::clamp(kSlowCadence + kCadencePerSpeed * (speed_ - kQuietSpeed), kSlowCadence,
+  angular_speed_ += part * (observation.angular_velocity.head<2>().norm() - angular_speed_);
+  cadence_ = std::clamp(kSlowCadence + kCadencePerSpeed * (speed_ - kRestSpeed), kSlowCadence,
                         kFastCadence);
 }
 
@@ -122,14 +123,14 @@ BodyError StepController::body_error(const LegObservation& observation, const Fe
   const Eigen::Vector3d ahead = observation.attitude * Eigen::Vector3d::UnitX();
   const double height = body_over_feet(feet).z() + kHeldPoint * (ahead.z() + slope_.slope()[0]);
   BodyError error;
-  error.way << way_, height + stance_.toes_in_base[0].z();
+  error.position << offset_, height + stance_.toes_in_base[0].z();
   error.velocity = velocity_;
   if (observation.time < 0.0) {
-    constexpr double kFaster = 2.0;  // so that the body is at rest when the trot begins
-    error.way.head<2>() *= kFaster * kFaster;
-    error.velocity.head<2>() *= kFaster;
+    constexpr double kFactor = 2.0;  // so that the body is at rest when the trot begins
+    error.position.head<2>() *= kFactor * kFactor;
+    error.velocity.head<2>() *= kFactor;
   }
-  error.turn = rotation_vector(observation.attitude, attitude_.attitude(yaw_));
+  error.rotation = rotation_vector(observation.attitude, attitude_.attitude(yaw_));
   error.angular_velocity = observation.attitude * observation.angular_velocity;
   return error;
 }
@@ -138,15 +139,15 @@ BodyError StepController::body_error(const LegObservation& observation, const Fe
 // that gravity, which gives g / h of acceleration per way off balance, gives what the springs ask
 // for; on the deck's slope.
 Eigen::Vector3d StepController::landing_place(std::size_t leg) const {
-  const Eigen::Vector3d way(way_.x(), way_.y(), 0.0);
-  const Eigen::Vector3d balance =
-      kSprings.way.cwiseProduct(way) + kSprings.way_rate.cwiseProduct(velocity_);
+  const Eigen::Vector3d way(offset_.x(), offset_.y(), 0.0);
+  const Eigen::Vector3d balance = kSprings.position_stiffness.cwiseProduct(way) +
+                                  kSprings.position_damping.cwiseProduct(velocity_);
   const Eigen::AngleAxisd heading(yaw_ + placing_error_.z(), Eigen::Vector3d::UnitZ());
   Eigen::Vector3d place =
       heading * (stance_.toes_in_base[leg] + Eigen::Vector3d(balance_.x(), balance_.y(), 0.0));
   place.head<2>() += placing_error_.head<2>() + 0.5 * kDuty / cadence_ * velocity_.head<2>() +
-                     kBalance * balance.head<2>();
-  place.z() += slope_.slope().dot(Eigen::Vector2d(-place.x(), place.y())) - kPressDown;
+                     kBalanceGain * balance.head<2>();
+  place.z() += slope_.slope().dot(Eigen::Vector2d(-place.x(), place.y())) - kLandingDepth;
   return place;
 }
 
@@ -160,7 +161,8 @@ Eigen::Vector3d StepController::swing_force(const Feet& feet, std::size_t leg) c
   const Eigen::Vector3d way = landing_place(leg) - lift_off_[leg];
   const Eigen::Vector3d aim = lift_off_[leg] + blend * way + arc * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d aim_velocity = blend_rate * way + arc_rate * Eigen::Vector3d::UnitZ();
-  return kSwing * (aim - feet.positions[leg]) + kSwingRate * (aim_velocity - feet.velocities[leg]);
+  return kSwingStiffness * (aim - feet.positions[leg]) +
+         kSwingDamping * (aim_velocity - feet.velocities[leg]);
 }
 
 }  // namespace v60_gait

@@ -11,12 +11,12 @@
 
 namespace v60_gait {
 
-/// Trots in place. Feet on the ground carry the body (VirtualModel) over the place it has come to:
-/// the way over the deck is summed from the legs' motion, the operator's stick moves the aim, and
-/// so does every landing, because no foot comes down just where it should. Feet in the air are
-/// drawn by springs along an arc to where they balance the body's velocity (Raibert 1986). The
-/// trot is faster when the body is pushed about. Before time 0 all feet stay down and the body
-/// moves over them until they balance it; while it trots the controller learns where they do.
+/// Trots in place. The feet on the ground hold the body at a desired place on the deck
+/// (VirtualModel). The body's offset from it is integrated from the legs' motion; the operator's
+/// joystick moves the desired place, and so does each landing by its placing error. Feet in the air
+/// are drawn by springs along an arc to where they balance the body's velocity (Raibert 1986). The
+/// cadence rises with the body's speed. Before time 0 all feet stay on the ground and the body
+/// moves until it is balanced over them; while it trots, the point of balance is estimated.
 class StepController : public LegController {
  public:
   /// `seed`: of the errors in placing the feet, and of which pair lifts first.
@@ -42,11 +42,11 @@ class StepController : public LegController {
   double cycles_;                                       // since time 0
   double cadence_;                                      // 1/s
   double speed_ = 0.0;                                  // m/s, of the body over the deck, smoothed
-  double turning_ = 0.0;                                // rad/s, roll and pitch, smoothed
+  double angular_speed_ = 0.0;                          // rad/s, roll and pitch, smoothed
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // m/s, of the body over the deck
-  Eigen::Vector2d way_ = Eigen::Vector2d::Zero();       // m, from the aim to the body
+  Eigen::Vector2d offset_ = Eigen::Vector2d::Zero();    // m, from the desired place to the body
   Eigen::Vector2d balance_;                             // m, mean of the feet at rest, in base_link
-  double yaw_ = 0.0;                                    // rad, aim
+  double yaw_ = 0.0;                                    // rad, desired
   Eigen::Vector3d placing_error_ = Eigen::Vector3d::Zero();  // m, m, rad; pair in the air
   std::array<Eigen::Vector3d, 4> lift_off_;
   double last_time_ = 0.0;

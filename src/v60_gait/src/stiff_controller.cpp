@@ -4,6 +4,7 @@
 namespace v60_gait {
 namespace {
 
+// Stiff enough that the body follows the deck; about critically damped.
 constexpr double kStiffness = 600.0;  // Nm/rad
 constexpr double kDamping = 30.0;     // Nm s/rad
 

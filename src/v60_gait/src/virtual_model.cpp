@@ -8,7 +8,7 @@
 namespace v60_gait {
 namespace {
 
-constexpr double kPlannedFriction = 0.8;  // of the friction there is
+constexpr double kPlannedFriction = 0.8;  // of the true coefficient, a margin against slipping
 
 }  // namespace
 
@@ -49,12 +49,12 @@ LegVector VirtualModel::torques(const LegObservation& observation, const Feet& f
 }
 
 Wrench VirtualModel::wrench(const BodyError& error) const {
-  const Eigen::Vector3d acceleration =
-      -springs_.way.cwiseProduct(error.way) - springs_.way_rate.cwiseProduct(error.velocity);
+  const Eigen::Vector3d acceleration = -springs_.position_stiffness.cwiseProduct(error.position) -
+                                       springs_.position_damping.cwiseProduct(error.velocity);
   Wrench wrench;
   wrench.force = body_.weight * (Eigen::Vector3d::UnitZ() + acceleration / kGravity);
-  wrench.torque = springs_.turn.cwiseProduct(error.turn) -
-                  springs_.turn_rate.cwiseProduct(error.angular_velocity);
+  wrench.torque = springs_.rotation_stiffness.cwiseProduct(error.rotation) -
+                  springs_.rotation_damping.cwiseProduct(error.angular_velocity);
   return wrench;
 }
 

@@ -22,5 +22,20 @@ TEST(LegSensors, AreNoisyAndRepeatable) {
   EXPECT_GT(differences, 0.0);
 }
 
+TEST(LegSensors, HaveTheStatedNoise) {
+  constexpr int kSamples = 20000;
+  LegSensors sensors(7, 0.1);  // 2000 s: a hundred times the memory of the attitude's error
+  double positions = 0.0, velocities = 0.0, attitude = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const LegObservation seen = sensors.measure({});
+    positions += seen.positions.squaredNorm() / 12.0;
+    velocities += seen.velocities.squaredNorm() / 12.0;
+    attitude += std::pow(seen.attitude.angularDistance(Eigen::Quaterniond::Identity()), 2) / 3.0;
+  }
+  EXPECT_NEAR(std::sqrt(positions / kSamples), 1e-4, 1e-6);
+  EXPECT_NEAR(std::sqrt(velocities / kSamples), 3e-3, 3e-5);
+  EXPECT_NEAR(std::sqrt(attitude / kSamples), 2e-3, 3e-4);
+}
+
 }  // namespace
 }  // namespace v60_gait

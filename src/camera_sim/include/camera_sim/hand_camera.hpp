@@ -13,7 +13,7 @@ namespace camera_sim {
 
 /// The camera on the hand. Exposure to light goes up and down,
 ///   image = gain(t) scene + noise,  gain(t) = 1 + light_change sin(2 pi t / light_period + phase).
-struct HandCameraConfig {
+struct HandCameraParams {
   PinholeCamera optics;
   CameraTiming timing;
   double noise = 0.0;         ///< standard deviation, grey levels
@@ -31,14 +31,14 @@ struct HandCameraConfig {
 class HandCamera {
  public:
   /// Throws std::invalid_argument for a bad config or a robot without camera_optical_frame.
-  HandCamera(const std::string& urdf_xml, const TargetBox& target, const HandCameraConfig& config);
+  HandCamera(const std::string& urdf_xml, const TargetBox& target, const HandCameraParams& config);
 
   [[nodiscard]] cv::Mat image(const Frame& frame) const;
   [[nodiscard]] double gain(double time) const;
   [[nodiscard]] const PinholeCamera& optics() const { return config_.optics; }
 
  private:
-  HandCameraConfig config_;
+  HandCameraParams config_;
   CameraRenderer renderer_;
   ImageNoise noise_;
   double light_phase_;

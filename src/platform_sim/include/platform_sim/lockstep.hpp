@@ -1,36 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owes an answer to the simulator.
+// Which responses the simulator waits for before it advances.
 //
-// The chain, each link answering its predecessor with the predecessor's stamp:
+// The nodes form a chain. Each responds to the message before it with the same stamp:
 //   camera/image_raw -> tag_detections -> target/forecast -> execution/progress ->
 //   skill/trajectory -> execution/setpoint -> joint_command
-// joint_states asks for progress, set-point and command of the same stamp; a progress that names a
-// new forecast asks for a skill trajectory. While a hand guides the arm,
-// joint_states asks for guide/wrench only.
-// Of all answers still owed the one with the oldest stamp is the cause of a standstill, among equal
-// stamps the one that comes first in the chain.
+// joint_states calls for progress, set-point and command of its stamp; a progress that names a new
+// forecast calls for a skill trajectory. While a hand guides the arm, joint_states calls for
+// guide/wrench only. When the simulator stands still, the pending response with the oldest stamp is
+// the cause; among equal stamps, the one that comes first in the chain.
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <deque>
 #include <optional>
-#include <string>
+#include <prf_core/time.hpp>
 
 namespace platform_sim {
 
-using StampNs = std::int64_t;  // simulation time, ns
+enum class Response {
+  kDetections,
+  kForecast,
+  kProgress,
+  kTrajectory,
+  kSetpoint,
+  kCommand,
+  kWrench
+};
+inline constexpr std::size_t kResponseCount = 7;
 
-enum class Link { kDetections, kForecast, kProgress, kTrajectory, kSetpoint, kCommand, kWrench };
-inline constexpr std::size_t kLinkCount = 7;
-
-const char* topic_name(Link link);  // relative name of the topic that carries the answers
+const char* topic_name(Response response);
 
 enum class Peer { kFramework, kGuide };  // who moves the arm: the framework, or a guiding hand
 
 struct SilentTopic {
-  Link link;
-  StampNs stamp;  // of the answer waited for
+  Response response;
+  prf_core::Stamp stamp;  // of the pending response
 };
 
 class Lockstep {
@@ -38,32 +43,34 @@ class Lockstep {
   explicit Lockstep(Peer peer) : peer_(peer) {}
 
   // What the simulator published.
-  void published_image(StampNs exposure);
-  void published_joint_states(StampNs tick);
+  void published_image(prf_core::Stamp exposure);
+  void published_joint_states(prf_core::Stamp tick);
 
   // What came back. False, and without effect, if it is not newer than what came before.
-  bool received(Link link, StampNs stamp);
-  bool received_progress(StampNs stamp, StampNs forecast_stamp);
+  bool received(Response response, prf_core::Stamp stamp);
+  bool received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp);
 
-  // True when everything the simulator needs to go on from the last joint_states is there.
-  [[nodiscard]] bool answered() const;
+  // Whether the simulator has all that it needs to advance from the last joint_states.
+  [[nodiscard]] bool is_complete() const;
 
-  // The answer owed for longest; none when nothing is owed.
+  // The response that has been pending for longest; none when nothing is pending.
   [[nodiscard]] std::optional<SilentTopic> first_silent() const;
 
  private:
-  struct Account {
-    std::optional<StampNs> last_received;
-    std::deque<StampNs> owed;  // rising
+  struct Expected {
+    std::optional<prf_core::Stamp> last_received;
+    std::deque<prf_core::Stamp> pending;  // rising
   };
 
-  void ask(Link link, StampNs stamp);
-  Account& account(Link link) { return accounts_[static_cast<std::size_t>(link)]; }
-  const Account& account(Link link) const { return accounts_[static_cast<std::size_t>(link)]; }
+  void expect(Response response, prf_core::Stamp stamp);
+  Expected& expected(Response response) { return expected_[static_cast<std::size_t>(response)]; }
+  const Expected& expected(Response response) const {
+    return expected_[static_cast<std::size_t>(response)];
+  }
 
   Peer peer_;
-  std::array<Account, kLinkCount> accounts_;
-  std::optional<StampNs> forecast_in_force_;
+  std::array<Expected, kResponseCount> expected_;
+  std::optional<prf_core::Stamp> forecast_in_force_;
 };
 
 }  // namespace platform_sim

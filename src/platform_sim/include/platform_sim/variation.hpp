@@ -32,7 +32,7 @@ struct Variation {
                                       const VariationSpread& spread = {});
 
   /// Moves box and robot and changes the friction of a nominal world.
-  void apply_to(WorldConfig& config) const;
+  void apply_to(WorldParams& config) const;
   /// In words, for the log.
   [[nodiscard]] std::string text() const;
 };

@@ -9,7 +9,7 @@
 #include "camera_sim/target_box.hpp"
 #include "platform_sim/contacts.hpp"
 #include "platform_sim/frame_state.hpp"
-#include "platform_sim/world_config.hpp"
+#include "platform_sim/world_params.hpp"
 
 namespace platform_sim {
 
@@ -29,7 +29,7 @@ class World {
   static constexpr double kTimeStep = 0.001;
 
   /// Throws std::invalid_argument for a robot description that cannot be simulated or a bad config.
-  World(const std::string& urdf_xml, const WorldConfig& config);
+  World(const std::string& urdf_xml, const WorldParams& config);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -53,7 +53,8 @@ class World {
 
   /// Contacts since the last call, one per pair of links, in alphabetical order.
   [[nodiscard]] std::vector<Contact> take_contacts();
-  /// The body is low, tipped over, or touches the platform; never if it is carried.
+  /// By the criterion of prf_msgs/interfaces.yaml, as the judge has it: the body is low, tilted or
+  /// touches the platform. Never if the base is carried.
   [[nodiscard]] bool fallen() const;
 
   /// Servo mode: queues a set-point of the arm, see ArmServo; held until the next one. The velocity

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body_motion.hpp"
 
-#include <sstream>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 namespace platform_sim {
 namespace {
 
 const std::vector<std::string> kColumns{"x", "y", "z", "roll", "pitch", "yaw"};
-constexpr double kFarthest[] = {1.0, 1.0, 1.0, 0.7, 0.7, 3.2};  // m, rad
-constexpr double kFastest[] = {3.0, 3.0, 3.0, 10.0, 10.0, 10.0};
-constexpr double kLowest = 0.2;  // m
-
-void require_at_most(const std::string& what, double value, double bound) {
-  if (value <= bound) return;
-  std::ostringstream message;
-  message << what << " = " << value << ", must be at most " << bound;
-  throw std::invalid_argument(message.str());
-}
+// Beyond what a Vision 60 does on a treadmill, but for a wrong unit.
+constexpr double kFarthest[] = {1.0, 1.0, 1.0, 0.7, 0.7, 3.2};    // m, rad
+constexpr double kFastest[] = {3.0, 3.0, 3.0, 10.0, 10.0, 10.0};  // m/s, rad/s
+constexpr double kLowest = 0.2;                                   // m
 
 void validate(const RecordedMotion& recording) {
   if (recording.columns() != kColumns) {
@@ -26,13 +20,11 @@ void validate(const RecordedMotion& recording) {
   const RecordedMotion::Extremes most = recording.extremes();
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    require_at_most("largest " + kColumns[i], most.value[column], kFarthest[i]);
-    require_at_most("largest rate of " + kColumns[i], most.velocity[column], kFastest[i]);
+    prf_core::require_between("largest " + kColumns[i], most.value[column], 0.0, kFarthest[i]);
+    prf_core::require_between("largest rate of " + kColumns[i], most.velocity[column], 0.0,
+                              kFastest[i]);
   }
-  if (most.least[2] < kLowest) {
-    throw std::invalid_argument("lowest z = " + std::to_string(most.least[2]) +
-                                ", must be at least 0.2");
-  }
+  prf_core::require_between("lowest z", most.least[2], kLowest, kFarthest[2], "m");
 }
 
 RecordedMotion read(const std::string& csv_path) {

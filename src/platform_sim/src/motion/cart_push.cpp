@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <random>
-#include <stdexcept>
-#include <string>
 
 namespace platform_sim {
 namespace {
@@ -13,21 +12,15 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint64_t kStream = 0x63617274;  // keeps these draws apart from others of the seed
 
-void require(bool holds, const std::string& name, double value, const std::string& bound) {
-  if (holds) return;
-  throw std::invalid_argument(name + " is " + std::to_string(value) + ", must be " + bound);
-}
-
 }  // namespace
 
 CartPush::CartPush(const Params& params) : params_(params) {
-  require(params.start >= 0.0 && std::isfinite(params.start), "push.start", params.start,
-          "finite and >= 0 s");
-  require(params.duration > 0.0 && std::isfinite(params.duration), "push.duration", params.duration,
-          "finite and > 0 s");
-  require(params.distance >= 0.0 && params.distance <= 1.0, "push.distance", params.distance,
-          "in 0..1 m");
-  require(std::isfinite(params.heading), "push.heading", params.heading, "finite");
+  prf_core::require(params.start >= 0.0 && std::isfinite(params.start), "push.start", params.start,
+                    "finite and >= 0 s");
+  prf_core::require(params.duration > 0.0 && std::isfinite(params.duration), "push.duration",
+                    params.duration, "finite and > 0 s");
+  prf_core::require_between("push.distance", params.distance, 0.0, 1.0, "m");
+  prf_core::require_finite("push.heading", params.heading);
 }
 
 CartPush::Params CartPush::draw(std::uint64_t seed) {

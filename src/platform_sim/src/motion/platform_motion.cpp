@@ -27,13 +27,13 @@ double ramp_rate(double time) {
   return time < kRampDuration ? 0.5 * kRampRate * std::sin(kRampRate * time) : 0.0;
 }
 
-// Steady answer of lag dy/dt + y = sin(rate t + phase).
+// Steady response of lag dy/dt + y = sin(rate t + phase).
 double lagged_sine(double rate, double phase, double lag, double time) {
   const double delay = std::atan(rate * lag);
   return std::cos(delay) * std::sin(rate * time + phase - delay);
 }
 
-// Steady answer to (1 - cos(W t))/2 sin(w t + p)
+// Steady response to (1 - cos(W t))/2 sin(w t + p)
 //   = sin(w t + p)/2 - sin((w + W) t + p)/4 - sin((w - W) t + p)/4.
 double lagged_ramped_sine(double rate, double phase, double lag, double time) {
   return 0.5 * lagged_sine(rate, phase, lag, time) -
@@ -41,7 +41,7 @@ double lagged_ramped_sine(double rate, double phase, double lag, double time) {
          0.25 * lagged_sine(rate - kRampRate, phase, lag, time);
 }
 
-// The lag's answer from rest: steady answer of each stretch plus its decaying transient.
+// The lag's response from rest: steady response of each stretch plus its decaying transient.
 double lagged_command(double rate, double phase, double lag, double time) {
   const auto ramped = [&](double t) {
     return lagged_ramped_sine(rate, phase, lag, t) -

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -15,9 +16,9 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTwoPi = 2.0 * 180.0 * kDegree;
-constexpr double kPitchLag = 0.42;  // s, of the real treadmill
-constexpr double kShortestLag = 0.01;
-constexpr double kLongestLag = 10.0;
+constexpr double kPitchLag = 0.42;     // s, of the real treadmill
+constexpr double kShortestLag = 0.01;  // s
+constexpr double kLongestLag = 10.0;   // s
 
 PlatformProfile sway_and_pitch(const Sine& sway, const Sine& pitch, double pitch_lag) {
   PlatformProfile profile;
@@ -33,7 +34,7 @@ PlatformProfile carried(PlatformProfile profile) {
 
 // The heavy preset's command leads so that the realised pitch lags the sway by 0.64 rad, as it was
 // measured on the treadmill that light and heavy describe. as_printed takes the paper's light
-// motion at its word: 0.5 m at 2 Hz, 3 deg at 1.5 Hz.
+// motion literally: 0.5 m at 2 Hz, 3 deg at 1.5 Hz.
 const std::vector<std::pair<std::string, PlatformProfile>>& presets() {
   static const std::vector<std::pair<std::string, PlatformProfile>> all{
       {"none", {}},
@@ -55,11 +56,10 @@ Bounds bounds_of(std::size_t axis, bool carries_base) {
   return is_linear ? Bounds{0.1, 0.5, 2.5} : Bounds{0.18, 0.7, 3.0};
 }
 
-void require_at_most(const std::string& what, double value, double bound, const char* unit) {
-  if (value <= bound) return;
-  std::ostringstream message;
-  message << what << " = " << value << " " << unit << ", must be at most " << bound << " " << unit;
-  throw std::invalid_argument(message.str());
+void require_at_most(const std::string& what, double value, double bound, const std::string& unit) {
+  std::ostringstream most;
+  most << "at most " << bound << " " << unit;
+  prf_core::require(value <= bound, what, value, most.str());
 }
 
 void require_within(std::size_t axis, const Bounds& bounds, const Bounds& reached) {
@@ -85,19 +85,14 @@ Bounds reach_of(const AxisProfile& axis) {
 }
 
 void require_sound(const std::string& name, const AxisProfile& axis) {
-  const auto refuse = [&](const std::string& what, double value, const std::string& must) {
-    throw std::invalid_argument(name + " " + what + " = " + std::to_string(value) + ", must be " +
-                                must);
-  };
-  if (axis.lag != 0.0 && !(axis.lag >= kShortestLag && axis.lag <= kLongestLag)) {
-    refuse("lag", axis.lag, "0 or from 0.01 to 10 s");
+  if (axis.lag != 0.0) {
+    prf_core::require_between(name + " lag", axis.lag, kShortestLag, kLongestLag, "s");
   }
   for (const Sine& sine : axis.sines) {
-    if (!std::isfinite(sine.amplitude)) refuse("amplitude", sine.amplitude, "finite");
-    if (!std::isfinite(sine.phase)) refuse("phase", sine.phase, "finite");
-    if (!(sine.rate >= 0.0 && std::isfinite(sine.rate))) {
-      refuse("rate", sine.rate, "finite and not negative");
-    }
+    prf_core::require_finite(name + " amplitude", sine.amplitude);
+    prf_core::require_finite(name + " phase", sine.phase);
+    prf_core::require(sine.rate >= 0.0 && std::isfinite(sine.rate), name + " rate", sine.rate,
+                      "finite and >= 0 rad/s");
   }
 }
 

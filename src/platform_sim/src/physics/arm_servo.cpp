@@ -3,24 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 namespace platform_sim {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
+// As the driver of the Jaco2 (kinova-ros) does it: its queue holds 2000 points, one is taken every
+// 10 ms, and the arm stops when two are missing.
 constexpr double kVelocityLifetime = 0.02;  // s
 constexpr long kTakePeriodMs = 10;
-constexpr double kTimeTolerance = 1e-6;  // s
 constexpr std::size_t kLongestQueue = 2000;
-constexpr double kDryFriction = 0.1;      // Nm, of a guided joint
-constexpr double kViscousFriction = 1.0;  // Nm s/rad, of a guided joint
-
-void require_limit(const v60_gait::RobotJoint& joint, const std::string& what, double value) {
-  if (value > 0.0) return;
-  throw std::invalid_argument(what + " limit of joint '" + joint.name + "' is " +
-                              std::to_string(value) + ", must be above 0");
-}
+constexpr double kTimeTolerance = 1e-6;  // s, rounding of sums of milliseconds
+// Assumed, of a guided joint: a hand moves the arm easily, and it stops when it is let go.
+constexpr double kDryFriction = 0.1;      // Nm
+constexpr double kViscousFriction = 1.0;  // Nm s/rad
 
 Eigen::VectorXd torques_of(const std::vector<std::unique_ptr<JointMotor>>& motors) {
   Eigen::VectorXd torques(motors.size());
@@ -31,6 +29,14 @@ Eigen::VectorXd torques_of(const std::vector<std::unique_ptr<JointMotor>>& motor
 }
 
 }  // namespace
+
+void ArmDrive::command(const Eigen::VectorXd&, const Eigen::VectorXd&, double) {
+  throw std::invalid_argument("command_arm needs arm_mode kServo");
+}
+
+void ArmDrive::apply_hand_wrench(const Eigen::Vector3d&, const Eigen::Vector3d&) {
+  throw std::invalid_argument("apply_hand_wrench needs arm_mode kCompliant");
+}
 
 JointMotor::JointMotor(BulletScene& scene, RobotModel& robot, const v60_gait::RobotJoint& joint)
     : scene_(scene),
@@ -54,8 +60,8 @@ ArmServo::ArmServo(BulletScene& scene, RobotModel& robot, const std::vector<std:
   positions_.resize(static_cast<Eigen::Index>(joints.size()));
   for (const std::string& name : joints) {
     const v60_gait::RobotJoint& joint = robot.joint(name);
-    require_limit(joint, "velocity", joint.max_velocity);
-    require_limit(joint, "effort", joint.max_effort);
+    prf_core::require_positive("velocity limit of " + name, joint.max_velocity, "rad/s");
+    prf_core::require_positive("effort limit of " + name, joint.max_effort, "Nm");
     positions_[static_cast<Eigen::Index>(joints_.size())] = robot.position(joint);
     joints_.push_back(&joint);
     motors_.push_back(std::make_unique<JointMotor>(scene, robot, joint));

@@ -30,10 +30,16 @@ class JointMotor {
   std::unique_ptr<btMultiBodyJointMotor> motor_;
 };
 
-/// What moves an arm's joints.
+/// What moves an arm's joints. A drive takes commands or wrenches, not both; what it does not take
+/// throws std::invalid_argument.
 class ArmDrive {
  public:
   virtual ~ArmDrive() = default;
+  /// Positions, rad, and velocities, rad/s, to be reached from `time`, s, on.
+  virtual void command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities,
+                       double time);
+  /// Force, N, and torque, Nm, on the hand in world axes, held until the next call.
+  virtual void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
   /// To be called before each physics step.
   virtual void update(double time) = 0;
   /// Torques of the last step, Nm.
@@ -53,7 +59,8 @@ class ArmServo : public ArmDrive {
            double gain, double latency);
 
   /// Queues a command. Taken, it holds `positions`; `velocities` lapse 20 ms later.
-  void command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities, double time);
+  void command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities,
+               double time) override;
   void update(double time) override;
   [[nodiscard]] Eigen::VectorXd efforts() const override;
 
@@ -83,7 +90,7 @@ class CompliantArm : public ArmDrive {
   CompliantArm(BulletScene& scene, RobotModel& robot, const std::vector<std::string>& joints,
                const std::string& hand_link);
 
-  void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+  void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) override;
   void update(double time) override;
   [[nodiscard]] Eigen::VectorXd efforts() const override;
 

@@ -6,7 +6,7 @@
 namespace platform_sim {
 namespace {
 
-constexpr double kMaxForce = 1e5;  // N or Nm
+constexpr double kMaxForce = 1e5;  // N or Nm, far above what 150 m/s2 take
 constexpr int kBase = -1;          // Bullet's number of a multibody's base
 const std::string kBaseLink = "base_link";
 

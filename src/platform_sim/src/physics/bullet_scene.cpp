@@ -7,7 +7,7 @@
 namespace platform_sim {
 namespace {
 
-constexpr int kSolverIterations = 20;
+constexpr int kSolverIterations = 20;  // Bullet's default is 10
 
 const std::string& shape_name(const btCollisionObject& object, int child) {
   const auto& names = static_cast<const ColliderLabel*>(object.getUserPointer())->shape_names;

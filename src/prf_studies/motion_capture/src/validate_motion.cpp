@@ -51,8 +51,8 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-platform_sim::WorldConfig world_config(const MotionCondition& condition, long seed) {
-  platform_sim::WorldConfig config;
+platform_sim::WorldParams world_params(const MotionCondition& condition, long seed) {
+  platform_sim::WorldParams config;
   config.motion = condition.motion;
   config.gait = condition.gait;
   config.seed = static_cast<std::uint64_t>(seed);
@@ -125,7 +125,7 @@ MotionResult simulate(const Study& study, const MotionCondition& condition,
   double seconds = 0.0;
   for (long seed = 1; seed <= study.seeds; ++seed) {
     std::fprintf(stderr, "%s: seed %ld of %ld   \r", condition.name.c_str(), seed, study.seeds);
-    const platform_sim::WorldConfig config = world_config(condition, seed);
+    const platform_sim::WorldParams config = world_params(condition, seed);
     platform_sim::World world(urdf, config);
     MotionObserver observer;
     bool stands = observe(study, config.arm_start, kWarmUp, world, observer);
@@ -269,7 +269,7 @@ Study read_options(CLI::App& app, int argc, char** argv) {
   if (motion.empty()) motion = study.falls ? "heavy" : "light";
   if (gait.empty()) gait = study.falls ? "step" : "stand";
   study.conditions = {condition_of(motion, gait)};
-  world_config(study.conditions[0], 1).validate();
+  world_params(study.conditions[0], 1).validate();
   return study;
 }
 

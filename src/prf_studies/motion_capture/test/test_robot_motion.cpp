@@ -22,8 +22,8 @@ std::string robot_urdf() {
 
 constexpr double kPi = 3.14159265358979323846;
 
-platform_sim::WorldConfig ready_robot(const std::string& motion, const std::string& gait) {
-  platform_sim::WorldConfig config;
+platform_sim::WorldParams ready_robot(const std::string& motion, const std::string& gait) {
+  platform_sim::WorldParams config;
   config.motion = motion;
   config.gait = gait;
   config.seed = 3;
@@ -112,7 +112,7 @@ TEST(Legs, TrotAtTheMeasuredCadenceWithDiagonalPairs) {
 
 TEST(Legs, StartToTrotWithoutThrowingTheBodyAside) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    platform_sim::WorldConfig config = ready_robot("none", "step");
+    platform_sim::WorldParams config = ready_robot("none", "step");
     config.seed = seed;
     platform_sim::World world(robot_urdf(), config);
     double farthest = 0.0;
@@ -146,7 +146,7 @@ TEST(Legs, TrotOnWhenTheRobotIsPushedOrCarriesAPayload) {
 // seen in the difference to the same run with the arm at rest.
 TEST(Legs, StepWithoutBeingExcitedByTheArm) {
   const double rate = 2.0 * kPi * 1.6;
-  const platform_sim::WorldConfig config = ready_robot("none", "step");
+  const platform_sim::WorldParams config = ready_robot("none", "step");
   platform_sim::World world(robot_urdf(), config);
   platform_sim::World still(robot_urdf(), config);
   MotionObserver observer, still_observer;
@@ -176,7 +176,7 @@ TEST(Legs, StepWithoutBeingExcitedByTheArm) {
 // to 0.15, with what the body adds.
 TEST(Legs, SlideOnlyIfTheFrictionIsLessThanTheDeckAsksFor) {
   const auto slip = [](double friction) {
-    platform_sim::WorldConfig config = ready_robot("heavy", "stand");
+    platform_sim::WorldParams config = ready_robot("heavy", "stand");
     config.friction = friction;
     platform_sim::World world(robot_urdf(), config);
     MotionObserver observer;
@@ -188,7 +188,7 @@ TEST(Legs, SlideOnlyIfTheFrictionIsLessThanTheDeckAsksFor) {
 }
 
 TEST(Legs, FallWhenTheDeckIsIce) {
-  platform_sim::WorldConfig config = ready_robot("heavy", "step");
+  platform_sim::WorldParams config = ready_robot("heavy", "step");
   config.friction = 0.05;
   platform_sim::World world(robot_urdf(), config);
   (void)observe(world, 0.0, 20.0);

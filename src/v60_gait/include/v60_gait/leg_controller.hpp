@@ -8,15 +8,15 @@ namespace v60_gait {
 /// Order: fl, fr, rl, rr; within a leg abduction, hip, knee.
 using LegVector = Eigen::Matrix<double, 12, 1>;
 
-/// All that a leg controller may know: encoders, inertial unit and the operator's stick.
+/// All inputs of a leg controller: encoders, inertial unit and the operator's joystick.
 struct LegObservation {
   double time = 0.0;                                             ///< s
   LegVector positions = LegVector::Zero();                       ///< rad
   LegVector velocities = LegVector::Zero();                      ///< rad/s
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< base_link in world
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    ///< rad/s, in base_link
-  Eigen::Vector3d stick = Eigen::Vector3d::Zero();  ///< wanted velocity over the deck: m/s ahead,
-                                                    ///< m/s to the left, rad/s of yaw
+  Eigen::Vector3d joystick = Eigen::Vector3d::Zero();  ///< desired velocity over the deck: m/s
+                                                       ///< ahead, m/s to the left, rad/s of yaw
 };
 
 /// Locomotion controller of the quadruped, called at every physics step. It knows nothing of the

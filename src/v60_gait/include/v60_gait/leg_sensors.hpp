@@ -8,8 +8,8 @@
 
 namespace v60_gait {
 
-/// What encoders and inertial unit make of the truth: white noise, and an attitude that is off by
-/// a slowly wandering turn (first-order Gauss-Markov). To be called every `period`, s.
+/// Noise of encoders and inertial unit: white noise on angles and rates, and a first-order
+/// Gauss-Markov error of the attitude. To be called every `period`, s.
 class LegSensors {
  public:
   LegSensors(std::uint64_t seed, double period);

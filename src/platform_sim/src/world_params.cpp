@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "platform_sim/world_config.hpp"
+#include "platform_sim/world_params.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "motion/body_motion.hpp"
 #include "platform_sim/platform_motion.hpp"
-#include "require.hpp"
+#include "prf_core/require.hpp"
 #include "v60_gait/gaits.hpp"
 
 namespace platform_sim {
@@ -24,18 +24,18 @@ void require_body_motion(const std::string& path) {
 
 }  // namespace
 
-const std::vector<std::string>& WorldConfig::scenario_names() {
+const std::vector<std::string>& WorldParams::scenario_names() {
   static const std::vector<std::string> names{"treadmill", kCart};
   return names;
 }
 
-camera_sim::TargetBox WorldConfig::placed_target() const {
+camera_sim::TargetBox WorldParams::placed_target() const {
   camera_sim::TargetBox placed = target;
   placed.on_cart = scenario == kCart;
   return placed;
 }
 
-void WorldConfig::validate() const {
+void WorldParams::validate() const {
   const std::vector<std::string>& scenarios = scenario_names();
   if (std::find(scenarios.begin(), scenarios.end(), scenario) == scenarios.end()) {
     throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill or cart");
@@ -51,14 +51,14 @@ void WorldConfig::validate() const {
   if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {
     throw std::invalid_argument("gait is '" + gait + "', must be stand when the base is carried");
   }
-  require_between("friction", friction, 0.05, 2.0);
-  require_between("base_start_x", base_start_x, -0.4, 0.2);
-  require_between("base_start_y", base_start_y, -0.3, 0.3);
-  require_between("base_start_yaw", base_start_yaw, -0.5, 0.5);
-  require_between("servo_gain", servo_gain, 0.1, 200.0);
-  require_between("arm_latency", arm_latency, 0.0, 0.2);
+  prf_core::require_between("friction", friction, 0.05, 2.0);
+  prf_core::require_between("base_start_x", base_start_x, -0.4, 0.2, "m");
+  prf_core::require_between("base_start_y", base_start_y, -0.3, 0.3, "m");
+  prf_core::require_between("base_start_yaw", base_start_yaw, -0.5, 0.5, "rad");
+  prf_core::require_between("servo_gain", servo_gain, 0.1, 200.0, "1/s");
+  prf_core::require_between("arm_latency", arm_latency, 0.0, 0.2, "s");
   for (int i = 0; i < arm_start.size(); ++i) {
-    require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
+    prf_core::require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
   }
   placed_target().validate();
 }

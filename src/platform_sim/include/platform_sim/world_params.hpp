@@ -17,7 +17,7 @@ enum class ArmMode {
   kCompliant,  ///< gravity compensated and back-drivable, to be guided by the hand
 };
 
-struct WorldConfig {
+struct WorldParams {
   /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
   /// pushes aside (CartPush), and motion must be none.
   std::string scenario = "treadmill";

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "platform_sim/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "v60_world.hpp"
+
+namespace platform_sim {
+namespace {
+
+TEST(World, ArmServoRespectsTheVelocityLimitsOfTheRobot) {
+  World world(robot_urdf(), folded_arm());
+  const ArmVector goal = folded_arm().arm_start + 0.5 * ArmVector::Ones();
+  Eigen::VectorXd fastest = Eigen::VectorXd::Zero(19);
+  for (int period = 0; period < 200; ++period) {
+    world.command_arm(goal, ArmVector::Zero());
+    for (int step = 0; step < 10; ++step) {
+      world.step();
+      fastest = fastest.cwiseMax(world.joints().velocities.cwiseAbs());
+    }
+  }
+  const double degree = 3.14159265358979323846 / 180.0;
+  for (int i = 12; i < 19; ++i) {
+    EXPECT_LE(fastest[i], (i < 16 ? 36.0 : 48.0) * degree * 1.02) << world.joint_names()[i];
+  }
+  EXPECT_LT((world.joints().positions.tail<7>() - goal).norm(), 1e-3);
+}
+
+TEST(World, ReportsTheContactOfAHandPushedIntoTheBox) {
+  WorldParams config = folded_arm();
+  World free(robot_urdf(), config);
+  const Eigen::Vector3d hand = in_platform(free, "j2s7s300_end_effector");
+  config.target.tag_position_in_platform = hand + Eigen::Vector3d(0.05, 0.25, 0.07);
+  World world(robot_urdf(), config);
+  ArmVector goal = config.arm_start;
+  goal[0] -= 1.0;
+  double strongest = 0.0;
+  for (int period = 0; period < 200; ++period) {
+    world.command_arm(goal, ArmVector::Zero());
+    run(world, 0.01);
+    for (const Contact& contact : world.take_contacts()) {
+      EXPECT_LT(contact.link_a, contact.link_b);
+      const bool is_arm =
+          contact.link_b.rfind("j2s7s300_", 0) == 0 || contact.link_b == "camera_link";
+      if (contact.link_a != "box" || !is_arm) continue;
+      strongest = std::max(strongest, contact.force);
+      EXPECT_LT((world.platform().pose.inverse() * contact.position -
+                 world.target().box_in_platform().translation())
+                    .norm(),
+                0.35);
+    }
+  }
+  EXPECT_GT(strongest, 5.0);
+  EXPECT_LT(strongest, 1000.0);
+}
+
+TEST(World, ReportsTheContactOfTheForearmWithTheBody) {
+  WorldParams config;
+  config.arm_start << 0.0, 3.7, 0.0, 0.95, 0.0, 2.0, 0.0;
+  World world(robot_urdf(), config);
+  ArmVector goal = config.arm_start;
+  goal[1] = 4.4;  // the hand would come to rest inside the body
+  bool touched = false;
+  for (int period = 0; period < 400 && !touched; ++period) {
+    world.command_arm(goal, ArmVector::Zero());
+    run(world, 0.01);
+    for (const Contact& contact : world.take_contacts()) {
+      touched = touched || (contact.link_a == "body" && contact.link_b.rfind("j2s7s300_", 0) == 0);
+    }
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST(World, CompliantArmHoldsStillAndFollowsTheHand) {
+  WorldParams config = folded_arm();
+  config.gait = "stand_stiff";
+  config.arm_mode = ArmMode::kCompliant;
+  World world(robot_urdf(), config);
+  const Eigen::Vector3d start = in_platform(world, "j2s7s300_end_effector");
+  run(world, 2.0);
+  EXPECT_LT((in_platform(world, "j2s7s300_end_effector") - start).norm(), 2e-3);
+  // A damped spring toward a point 50 mm ahead, as a guiding hand pulls.
+  const Eigen::Vector3d goal = start + Eigen::Vector3d(0.05, 0.0, 0.0);
+  for (int step = 0; step < 3000; ++step) {
+    const FrameState hand = world.frame("j2s7s300_end_effector");
+    world.apply_hand_wrench(300.0 * (goal - hand.pose.translation()) - 30.0 * hand.linear,
+                            Eigen::Vector3d::Zero());
+    world.step();
+  }
+  EXPECT_LT((in_platform(world, "j2s7s300_end_effector") - goal).norm(), 0.01);
+}
+
+TEST(World, RefusesCallsOfTheOtherArmModeAndNonFiniteCommands) {
+  World servo(robot_urdf(), folded_arm());
+  EXPECT_THROW(servo.apply_hand_wrench(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
+               std::invalid_argument);
+  ArmVector command = ArmVector::Zero();
+  command[2] = std::nan("");
+  EXPECT_THROW(servo.command_arm(command, ArmVector::Zero()), std::invalid_argument);
+  EXPECT_THROW(servo.command_arm(ArmVector::Zero(), command), std::invalid_argument);
+  EXPECT_THROW((void)servo.frame("tail"), std::invalid_argument);
+  EXPECT_THROW(servo.push("tail", Eigen::Vector3d::Zero()), std::invalid_argument);
+  EXPECT_THROW(servo.push("base_link", {std::nan(""), 0, 0}), std::invalid_argument);
+  WorldParams config = folded_arm();
+  config.arm_mode = ArmMode::kCompliant;
+  World compliant(robot_urdf(), config);
+  EXPECT_THROW(compliant.command_arm(ArmVector::Zero(), ArmVector::Zero()), std::invalid_argument);
+  EXPECT_THROW(compliant.apply_hand_wrench({std::nan(""), 0, 0}, Eigen::Vector3d::Zero()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace platform_sim
