@@ -13,6 +13,7 @@
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "prf_core/require.hpp"
+#include "prf_msgs/fall_criterion.h"
 #include "v60_gait/gaits.hpp"
 #include "v60_gait/gravity.hpp"
 #include "v60_gait/leg_sensors.hpp"
@@ -23,8 +24,6 @@
 namespace platform_sim {
 namespace {
 
-constexpr double kFallenHeight = 0.30;  // m, base over the deck
-constexpr double kFallenTilt = 0.7;     // rad
 constexpr double kSettlingTime = 2.0;  // s, until legs and contacts are at rest
 
 // A stiff contact with damping: Bullet's rigid one creeps. A leg that carries a quarter of the
@@ -259,8 +258,8 @@ void World::Impl::judge_fall(const std::vector<ContactPoint>& points) {
         return (point.link_a == "body" && point.link_b == "platform") ||
                (point.link_a == "platform" && point.link_b == "body");
       });
-  fallen_ = fallen_ || body_on_deck || tilt > kFallenTilt ||
-            base_in_deck.translation().z() < kFallenHeight;
+  fallen_ = fallen_ || body_on_deck || tilt > prf_msgs::kFallenTilt ||
+            base_in_deck.translation().z() < prf_msgs::kFallenHeight;
 }
 
 void World::Impl::command_arm(const ArmVector& positions, const ArmVector& velocities) {

@@ -134,12 +134,25 @@ TEST(World, SlipsWhenTheDeckIsTooSmooth) {
   EXPECT_GT(slip, 0.010);
 }
 
-TEST(World, NoticesWhenTheRobotIsPulledOver) {
+// The criterion is that of the judge: 0.35 m, 30 degrees, or body and platform in contact.
+TEST(World, HasFallenFromTheFirstStepBeyondTheCriterion) {
   WorldParams config = folded_arm();
   config.arm_mode = ArmMode::kCompliant;
   World world(robot_urdf(), config);
   world.apply_hand_wrench(Eigen::Vector3d(0.0, 600.0, 0.0), Eigen::Vector3d::Zero());
-  run(world, 3.0);
+  const auto is_beyond = [&] {
+    const Eigen::Isometry3d base = world.platform().pose.inverse() * world.base().pose;
+    const double tilt = std::acos(base.linear()(2, 2));
+    bool touches = false;
+    for (const Contact& contact : world.take_contacts()) {
+      touches = touches || (contact.link_a == "body" && contact.link_b == "platform");
+    }
+    return base.translation().z() < 0.35 || tilt > 30.0 * M_PI / 180.0 || touches;
+  };
+  while (world.time() < 3.0 && !world.fallen()) {
+    world.step();
+    ASSERT_EQ(world.fallen(), is_beyond()) << world.time();
+  }
   EXPECT_TRUE(world.fallen());
 }
 

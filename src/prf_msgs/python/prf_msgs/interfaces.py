@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of topics, interfaces.yaml, and the lists that follow from it."""
+import math
 import os
 from dataclasses import dataclass
 from typing import Any
@@ -75,6 +76,8 @@ class Interfaces:
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:
             raise InterfaceError("interfaces.yaml has twice: " + ", ".join(doubled))
+        self.fallen_height = float(content["fall"]["height"])  # m
+        self.fallen_tilt = math.radians(content["fall"]["tilt_deg"])
 
     def of_kind(self, *kinds, recorded=True):
         """Names of the kinds; `recorded`: only of the topics in a trial's bag."""

@@ -21,7 +21,7 @@ import numpy as np
 from prf_experiments import geometry
 from prf_experiments.judge import target
 from prf_experiments.record.recording import Contact, Recording
-from prf_msgs import enums
+from prf_msgs import enums, interfaces
 from prf_msgs.msg import ExecutionProgress
 
 SECOND = 1_000_000_000  # ns
@@ -36,9 +36,8 @@ CONTACT_ISSUE = 1.0  # N
 EMERGENCY_STOP = 50.0  # N
 OUT_OF_VIEW_LIMIT = 1 * SECOND
 
-# The V60's body stands about 0.53 m above the deck; lower or more tilted than this it has fallen.
-FALLEN_HEIGHT = 0.35  # m, body above the deck along the deck's normal
-FALLEN_TILT = np.radians(30.0)  # rad, body's z axis to the deck's normal
+FALLEN_HEIGHT = interfaces.load().fallen_height  # m, body above the deck along the deck's normal
+FALLEN_TILT = interfaces.load().fallen_tilt  # rad, body's z axis to the deck's normal
 LYING = ("body", "platform")  # links whose contact means the same
 
 TICK = SECOND // 100  # joint_states and everything published with them
