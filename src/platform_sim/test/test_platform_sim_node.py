@@ -211,7 +211,7 @@ class ParameterTest(unittest.TestCase):
                 file.write("sway: {sines: [{amplitude: 0.5, rate: 12.6, phase: 0.0}]}")
             code, output = Simulator(motion=path).wait()
         self.assertEqual(code, 2, output)
-        self.assertIn("sway amplitude = 0.5 m, must be at most 0.1 m", output)
+        self.assertIn("sway amplitude = 0.5, must be at most 0.1 m", output)
         self.assertIn("motion is", output)
 
     def test_refuses_bad_values_of_the_camera_by_name(self):
