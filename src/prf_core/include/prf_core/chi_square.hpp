@@ -4,11 +4,11 @@
 
 namespace prf_core {
 
-// x with P(chi^2_degrees <= x) = probability; degrees >= 1, probability in (0, 1), else
-// std::invalid_argument.
+// x with P(X <= x) = probability, where X is chi-square with `degrees` degrees of freedom. Throws
+// std::invalid_argument unless degrees >= 1 and probability is in (0, 1).
 [[nodiscard]] double chi_square_quantile(int degrees, double probability);
 
-// P(chi^2_degrees <= x) for x >= 0, degrees >= 1, else std::invalid_argument.
+// P(X <= x) of the same X. Throws std::invalid_argument unless degrees >= 1 and x >= 0.
 [[nodiscard]] double chi_square_cdf(int degrees, double x);
 
 }  // namespace prf_core

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clock of one stream of stamped data: is a stamp in order, or did the clock jump?
 //
-// A stamp s is compared with the newest one n that the stream has accepted, bounds J and A:
+// A stamp s is compared with n, the newest one that the stream has accepted. J and A are the bounds
+// ClockBounds::backward_jump and ClockBounds::far_ahead.
 //
 //   stamp           order           what it is                                   n becomes
 //   none yet        kNewer          the first of the stream                      s
@@ -11,7 +12,9 @@
 //   s < n - J       kBackwardJump   the clock went back: a new run begins here   s
 //   s > n + A       kFarAhead       garbage, or the clock leapt forward          n
 //
-// The result depends on the order of the stamps alone, never on the time of arrival.
+// After a true leap forward by more than A every stamp is kFarAhead until restart() is called;
+// FarAheadHold below does that. The result depends on the order of the stamps alone, never on the
+// time of arrival.
 #pragma once
 
 #include <chrono>
@@ -53,7 +56,8 @@ class ClockMonitor {
 
   [[nodiscard]] std::optional<Stamp> newest() const { return newest_; }
 
-  // Goes on from `newest`, whatever was before; none: as if nothing had come.
+  // Makes `newest` the newest stamp, whatever was before. Without it the monitor is as it was
+  // before its first stamp.
   void restart(std::optional<Stamp> newest = std::nullopt) { newest_ = newest; }
 
  private:
@@ -61,12 +65,15 @@ class ClockMonitor {
   std::optional<Stamp> newest_;
 };
 
-// Tells a single wrong stamp far in the future from a clock that leapt forward: a message more than
-// `bound` ahead is held until the next message decides.
+// Tells a single wrong stamp far in the future from a clock that leapt forward. A message whose
+// stamp h is more than `bound` beyond the newest stamp n is held. The next message, with stamp s,
+// decides what becomes of it:
 //
-//   next stamp s, held stamp h    held message
-//   s >= h - bound                passes, the clock goes on from h
-//   s <  h - bound                refuted: it is dropped
+//   s >= h - bound   the clock leapt: the held message passes and h becomes the newest stamp
+//   s <  h - bound   h was wrong: the held message is refuted, that is dropped, and n stays
+//
+// After that s itself is compared with the newest stamp, and held if it is far ahead of that.
+// Duplicate and old messages pass too, with their order: the caller decides about them.
 template <typename Message>
 class FarAheadHold {
  public:
@@ -77,10 +84,10 @@ class FarAheadHold {
   };
   struct Result {
     std::vector<Passed> passed;  // in order of arrival
-    bool refuted = false;        // the held message
+    bool refuted = false;        // whether the held message was dropped
   };
 
-  // `bound` also is the bound of a backward jump.
+  // `bound` >= 0 is both bounds of the clock: far ahead and backward jump.
   explicit FarAheadHold(Duration bound) : bound_(bound), clock_({bound, bound}) {}
 
   Result push(Stamp stamp, Message message) {

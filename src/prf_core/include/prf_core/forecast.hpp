@@ -12,12 +12,17 @@
 namespace prf_core {
 
 // As in prf_msgs/TargetForecast.
-enum class TargetStatus { kNoTarget, kTracking, kCoasting, kLost };
+enum class TargetStatus {
+  kNoTarget,  // no measurement yet in this run
+  kTracking,  // recent measurements were accepted
+  kCoasting,  // predicted without accepted measurements
+  kLost       // coasted for too long; the predictions must not be used
+};
 
 struct TargetPrediction {
   Duration horizon{0};  // from the forecast's stamp
   MovingPose target;
-  // Of (position, velocity): m^2, m^2/s, m^2/s^2.
+  // Of (position, linear velocity): m^2, m^2/s, m^2/s^2. The orientation has no covariance.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   [[nodiscard]] Eigen::Matrix3d position_covariance() const {
@@ -31,15 +36,17 @@ struct TargetForecast {
   Duration since_measurement{0};              // at the stamp, since the last accepted measurement
   std::vector<TargetPrediction> predictions;  // horizons rise strictly from 0
 
-  // Finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0, at
-  // least one prediction while tracking or coasting. Throws std::invalid_argument naming the
-  // member, its value and the bound.
+  // Demands finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0,
+  // since_measurement >= 0, and at least one prediction while tracking or coasting. Whether the
+  // covariance is positive definite is not checked. Throws std::invalid_argument naming the member,
+  // its value and the bound.
   void validate() const;
 };
 
-// The target `stamp - forecast.stamp` ahead: interpolate() between the neighbouring predictions,
-// their covariance linearly. Before the first and beyond the last horizon the target is held at
-// that prediction, at rest. Throws std::invalid_argument when there are no predictions.
+// Predicts the target at `stamp`; the result's horizon is stamp - forecast.stamp. Between two
+// predictions the pose and velocity are those of interpolate(), and the covariance is linear.
+// Before the first and beyond the last horizon the result has that prediction's pose and
+// covariance, with zero velocity. Throws std::invalid_argument when there are no predictions.
 [[nodiscard]] TargetPrediction predicted_target(const TargetForecast& forecast, Stamp stamp);
 
 }  // namespace prf_core

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The form of every refusal of an argument or parameter: name, value and bound with its unit, as in
+// Checks of arguments and parameters. To refuse a value is to throw std::invalid_argument with its
+// name, the value, and the bound with its unit, as in
 //   "coast_after = -1, must be > 0 s".
-// All throw std::invalid_argument. Not-a-number fails every bound.
+// Not-a-number fails every bound of the functions below.
 #pragma once
 
 #include <cmath>
@@ -25,7 +26,7 @@ inline void require_finite(const std::string& name, double value) {
   require(std::isfinite(value), name, value, "finite");
 }
 
-// Both bounds included; an infinite `high` stands for "no upper bound" and admits infinity.
+// Both bounds are included. An infinite `high` stands for "no upper bound" and admits infinity.
 inline void require_between(const std::string& name, double value, double low, double high,
                             const std::string& unit = "") {
   if (value >= low && value <= high) return;

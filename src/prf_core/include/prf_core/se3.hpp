@@ -16,7 +16,7 @@ struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // unit
 
-  [[nodiscard]] Eigen::Isometry3d isometry() const;
+  [[nodiscard]] Eigen::Isometry3d isometry() const;  // needs a unit orientation
   [[nodiscard]] bool is_finite() const {
     return position.allFinite() && orientation.coeffs().allFinite();
   }
@@ -43,7 +43,8 @@ inline constexpr double kUnitQuaternionTolerance = 1e-3;
 // std::invalid_argument with `name`, the value and the bound.
 void require_pose(const std::string& name, const Pose& pose);
 
-// Log: rotation vector of a unit quaternion, angle in [0, pi].
+// Log: rotation vector of a unit quaternion, angle in [0, pi]. q and -q give the same vector,
+// except at pi, where they give opposite ones.
 [[nodiscard]] Eigen::Vector3d log_so3(const Eigen::Quaterniond& rotation);
 
 // Exp: rotation by the angle |r| about the axis r / |r|; identity for r = 0.
@@ -53,12 +54,15 @@ void require_pose(const std::string& name, const Pose& pose);
 [[nodiscard]] Eigen::Vector3d rotation_between(const Eigen::Quaterniond& from,
                                                const Eigen::Quaterniond& to);
 
-// Pose and velocity of a frame that is rigidly attached to a moving one.
+// Pose and velocity of a frame that is rigidly attached to the moving frame `carrier`. The result
+// is in the parent frame of `carrier`.
 [[nodiscard]] MovingPose rigidly_attached(const MovingPose& carrier, const Pose& frame_in_carrier);
 
-// Between two moving poses `span` seconds apart, `time` seconds after the first, 0 <= time <= span
-// and span > 0: the position follows the cubic Hermite polynomial of the two positions and
-// velocities, the orientation the shortest great arc (slerp) at its constant angular velocity.
+// The moving pose `time` seconds after `start`, where `end` is `span` seconds after `start`. The
+// caller sees to span > 0 and 0 <= time <= span; neither is checked. The position follows the cubic
+// Hermite polynomial of the two positions and linear velocities. The orientation turns along the
+// shortest great arc (slerp) at constant angular velocity, whatever angular velocities `start` and
+// `end` have.
 [[nodiscard]] MovingPose interpolate(const MovingPose& start, const MovingPose& end, double span,
                                      double time);
 

@@ -4,8 +4,8 @@
 //
 //   StampedQueue     messages of one stream with rising stamps
 //   SilenceMonitor   when to stop waiting for a stream, by data time
-//   StreamJoiner     each message of one stream with the message of another that has its stamp
-//                    (stream_joiner.hpp)
+//   StreamJoiner     joins each message of one stream with the message of another that has the same
+//                    stamp (stream_joiner.hpp)
 #pragma once
 
 #include <algorithm>
@@ -20,12 +20,12 @@
 namespace prf_core {
 
 // Messages by stamp, oldest first, with the clock of their stream. Beyond `capacity` the oldest
-// are dropped.
+// are dropped; no return value tells that.
 //
 //   order of a pushed stamp     effect
 //   kNewer                      stored
 //   kDuplicate, kOld, kFarAhead not stored
-//   kBackwardJump               what is stored is dropped, then stored
+//   kBackwardJump               the messages stored before are dropped, the new one is stored
 template <typename Message>
 class StampedQueue {
  public:
@@ -81,8 +81,9 @@ class StampedQueue {
   std::deque<Item> items_;
 };
 
-// A stream is silent once the stream that waits for it has gone on by more than `max_wait`. A
-// silent stream is not waited for until it is heard again.
+// A message of another stream waits for this one. The stream is silent once the other stream has
+// gone on by more than `max_wait` since the stamp of the waiting message. A silent stream is not
+// waited for until it is heard again.
 class SilenceMonitor {
  public:
   // max_wait > 0; Duration::max() waits without end.
@@ -93,7 +94,7 @@ class SilenceMonitor {
   void heard() { silent_ = false; }
 
   // Whether a message stamped `waiting` need not wait any longer, now that its own stream has come
-  // to `newest`.
+  // to `newest`. When it has waited too long, the stream becomes silent by this call.
   [[nodiscard]] bool gives_up(Stamp waiting, Stamp newest) {
     silent_ = silent_ || newest - waiting > max_wait_;
     return silent_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins each message of a primary stream with the message of a secondary stream whose stamp equals
-// the primary's key: its own stamp (a tick and its set-point), or a stamp that it names (a progress
-// and the forecast used for it).
+// the primary's key. The key is the primary's own stamp (a control tick and its set-point), or a
+// stamp that the primary names (an ExecutionProgress message and the forecast that it used).
 //
-// Primaries come out in the order in which they were pushed, each once. The oldest is decided when
+// Primaries come out in the order in which they were pushed, each once. A primary is decided when
+// no later message can change what it is joined with. The oldest one is decided when
 //
 //   a secondary with stamp = key has come                       -> joined with it
 //   a later secondary has come                                  -> alone: it was never sent
@@ -12,7 +13,9 @@
 //                                                                  comes again
 //   more than `capacity` primaries wait                         -> alone
 //
-// so that the results do not depend on the interleaving as long as no stream lags by max_wait.
+// The results do not depend on the interleaving as long as each secondary comes before the primary
+// stream is more than max_wait past the primary that it belongs to, and no queue is full. Beyond
+// `capacity` the oldest secondary is dropped; no return value tells that.
 //
 // A run is the data between two backward jumps of a stream. A jump of the primary stream begins a
 // new run of the joiner; the streams may jump in either order:
@@ -32,9 +35,10 @@
 namespace prf_core {
 
 struct JoinParams {
-  Duration max_wait = Duration::max();                // of data time, > 0
-  Duration primary_jump = std::chrono::seconds(1);    // a larger step back is a new run
-  Duration secondary_jump = std::chrono::seconds(1);  // the same
+  Duration max_wait = Duration::max();  // of data time, > 0; the default: no end
+  Duration primary_jump =
+      std::chrono::seconds(1);  // a larger step back of the primaries is a new run
+  Duration secondary_jump = std::chrono::seconds(1);  // the same for the secondaries
   std::size_t capacity = 1000;                        // of messages, for each stream
 };
 
@@ -54,7 +58,8 @@ class StreamJoiner {
         secondaries_({params.secondary_jump}, params.capacity),
         silence_(params.max_wait) {}
 
-  // The primary stream has come to `stamp`, with or without a message to join.
+  // Tells the joiner that the primary stream has come to `stamp`. To be called for a primary that
+  // is not to be joined: it lets time pass, and a backward jump of it begins a new run.
   StampOrder advance(Stamp stamp) {
     const StampOrder order = clock_.observe(stamp);
     if (order != StampOrder::kBackwardJump) return order;
@@ -68,8 +73,8 @@ class StreamJoiner {
     return order;
   }
 
-  // Advances and queues the message, also a duplicate or an old one: who does not want these asks
-  // advance() first.
+  // Advances and queues the message, also a duplicate or an old one. A caller that does not want
+  // these calls advance() first and looks at its result; the push then returns kDuplicate.
   StampOrder push_primary(Stamp stamp, Primary message) {
     return push_primary(stamp, stamp, std::move(message));
   }
@@ -80,8 +85,9 @@ class StreamJoiner {
     return order;
   }
 
-  // kOld, kDuplicate: too late to be joined, or of the old run. kBackwardJump: it jumped, or
-  // follows the primary into the new run.
+  // Returns kOld or kDuplicate for a message that comes too late to be joined, that has a stamp
+  // twice, or that is of the old run. Returns kBackwardJump for the first secondary of a run when
+  // secondaries of the run before had come, whichever stream jumped first. Never kFarAhead.
   StampOrder push_secondary(Stamp stamp, Secondary message) {
     const bool jumps = secondaries_.clock().classify(stamp) == StampOrder::kBackwardJump;
     const bool follows =
@@ -102,7 +108,7 @@ class StreamJoiner {
     return late && order == StampOrder::kNewer ? StampOrder::kOld : order;
   }
 
-  // The oldest primary when it is decided.
+  // Takes out the oldest primary when it is decided; none: nothing is decided.
   [[nodiscard]] std::optional<Joined> pop() {
     if (waiting_.empty()) return std::nullopt;
     auto& [key, joined] = waiting_.front();
@@ -147,7 +153,7 @@ class StreamJoiner {
   SilenceMonitor silence_;
   std::optional<Stamp> decided_;  // newest key of this run that was decided
   Ahead ahead_ = Ahead::kNone;
-  bool new_run_ = false;  // a jump, not yet told by a primary
+  bool new_run_ = false;  // the next primary pushed is the first of a new run
 };
 
 }  // namespace prf_core

@@ -8,9 +8,11 @@
 namespace prf_core {
 
 using Duration = std::chrono::nanoseconds;
-using Stamp = std::chrono::nanoseconds;  // since the epoch of the data's clock
+// Since the epoch of the clock that stamped the data: 1970 on a robot, the start in simulation.
+using Stamp = std::chrono::nanoseconds;
 
-// Rounded to the nearest nanosecond; `seconds` must be finite and within +-292 years.
+// Rounded to the nearest nanosecond. `seconds` must be finite and within +-292 years, which is not
+// checked.
 inline Duration from_seconds(double seconds) { return Duration{std::llround(seconds * 1e9)}; }
 
 inline double to_seconds(Duration duration) {

@@ -11,11 +11,15 @@ namespace prf_core {
 
 struct Trajectory {
   std::vector<Pose> poses;
-  std::vector<Duration> times;  // nominal time of each pose, strictly rising from 0
-  Pose goal_in_target;          // last pose of the hand in the target's frame
+  // Nominal time of each pose from the start of the skill, strictly rising from 0. An execution
+  // that pauses or goes back reaches the pose later.
+  std::vector<Duration> times;
+  // Demonstrated last pose of the hand in the target's frame. In a plan the last of `poses` belongs
+  // to the target predicted for its time; this one holds wherever the target is.
+  Pose goal_in_target;
 
-  // At least two poses, as many times, all finite and unit. Throws std::invalid_argument naming the
-  // member, its value and the bound.
+  // Demands at least two poses, as many times, finite positions and unit quaternions. Throws
+  // std::invalid_argument naming the member, its value and the bound.
   void validate() const;
 };
 
