@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages to the types of prf_core and back.
+// Converts messages to the types of prf_core and back. Frames are not checked: header.frame_id is
+// the node's business.
 #pragma once
 
 #include <geometry_msgs/Point.h>
@@ -22,10 +23,12 @@ namespace prf_ros {
 [[nodiscard]] Eigen::Vector3d to_core(const geometry_msgs::Point& point);
 [[nodiscard]] Eigen::Vector3d to_core(const geometry_msgs::Vector3& vector);
 [[nodiscard]] Eigen::Quaterniond to_core(const geometry_msgs::Quaternion& quaternion);
-// A quaternion within prf_core::kUnitQuaternionTolerance of the unit is normalised; any other is
-// left as it is, for validate() to refuse.
+// A quaternion whose norm is within prf_core::kUnitQuaternionTolerance of 1 is normalised. Any
+// other is left as it is; prf_core::require_pose(), which each validate() calls, refuses it.
 [[nodiscard]] prf_core::Pose to_core(const geometry_msgs::Pose& pose);
 
+// Throws std::runtime_error for a stamp that ros::Time cannot hold: below 0 or beyond the year
+// 2106.
 [[nodiscard]] ros::Time to_ros_time(prf_core::Stamp stamp);
 [[nodiscard]] ros::Duration to_ros_duration(prf_core::Duration duration);
 [[nodiscard]] geometry_msgs::Point to_point(const Eigen::Vector3d& vector);

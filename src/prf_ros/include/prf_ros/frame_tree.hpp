@@ -24,14 +24,15 @@ class FrameTree {
   // Links behind fixed joints, in alphabetical order of the joints.
   [[nodiscard]] const std::vector<LinkFrame>& fixed() const { return fixed_; }
 
-  // Links behind the joints named, in the order given. Names of no moving joint of the model and
-  // positions that are not finite are left out.
+  // Links behind the joints `names` at `positions` (rad or m), in that order. A name that is no
+  // moving joint of the model, a position that is not finite, and an entry that only one of the two
+  // lists has are left out. Mimic joints need an entry of their own.
   [[nodiscard]] std::vector<LinkFrame> moving(const std::vector<std::string>& names,
                                               const std::vector<double>& positions) const;
 
  private:
   struct MovingJoint {
-    LinkFrame at_zero;
+    LinkFrame at_zero;     // at joint position 0
     Eigen::Vector3d axis;  // unit, in the child
     bool prismatic;
   };

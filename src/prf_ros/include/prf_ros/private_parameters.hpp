@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The private parameters of a node, read strictly: a missing key, a wrong type or a key that
-// nothing reads is a std::invalid_argument that names the parameter, its value and what it must be.
+// The private parameters of a node, read strictly. A missing key and a wrong type throw
+// std::invalid_argument, which names the parameter, its value and what it must be. So does
+// refuse_unknown() for a key that nothing has read.
 //
 //   PrivateParameters values(ros::NodeHandle("~"));
 //   params.rate = values.number("rate");
 //   values.refuse_unknown();
 //
-// Bounds are the business of whoever owns the value (its validate()).
+// Bounds are not checked here: the struct that holds the value checks them in its validate().
 #pragma once
 
 #include <ros/node_handle.h>
@@ -21,17 +22,17 @@ namespace prf_ros {
 class PrivateParameters {
  public:
   explicit PrivateParameters(const ros::NodeHandle& private_handle);
-  explicit PrivateParameters(const XmlRpc::XmlRpcValue& values);
+  explicit PrivateParameters(const XmlRpc::XmlRpcValue& values);  // a struct, for tests
 
   [[nodiscard]] double number(const std::string& key);  // also from an integer; may be NaN or inf
-  [[nodiscard]] int integer(const std::string& key);
+  [[nodiscard]] int integer(const std::string& key);    // 3, not 3.0
   [[nodiscard]] bool flag(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key);
   [[nodiscard]] std::vector<double> numbers(const std::string& key, int count);  // exactly so many
   [[nodiscard]] std::vector<int> integers(const std::string& key);
-  // A block of parameters; error messages call them block/key. A block
-  // refuses its own unknown keys.
+  // A block of parameters; error messages call them block/key. The caller calls refuse_unknown() of
+  // the block, too: that of the whole does not look into blocks.
   [[nodiscard]] PrivateParameters section(const std::string& key);
 
   // To be called once everything has been read. Keys that begin with "__" are ROS's own.
@@ -50,8 +51,9 @@ class PrivateParameters {
   std::set<std::string> read_;
 };
 
-// Runs a node's main function. A std::invalid_argument out of it becomes one ROS_FATAL line and
-// exit code 2, as for a command that is called wrongly.
+// Runs a node's main function and returns the exit code of the node, 0 when the function returns.
+// A std::invalid_argument that it throws becomes one ROS_FATAL line and exit code 2, the code of a
+// command that is called wrongly. Other exceptions pass through.
 [[nodiscard]] int run(const std::function<void()>& node_main);
 
 }  // namespace prf_ros

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters that a person may change while a node runs, over the protocol of dynamic_reconfigure
 // (dynparam, rqt_reconfigure). A change takes effect as a whole, between two callbacks of the node,
-// or is refused as a whole with the reason; values are never clipped. All other parameters of the
-// node stay as they were at its start.
+// or is refused as a whole with the reason; values are never clipped. A change is refused when
+// `apply` throws, and when it has an unknown name, a type other than double or a value that is not
+// finite. All other parameters of the node stay as they were at its start.
 //
 //   ReconfigurableParams reconfigurable(
 //       ros::NodeHandle("~"), {{"gain", 1.0, "what it does, unit"}},
 //       [&](const ReconfigurableParams::Values& values) { core.tune(values.at("gain")); });
 //
-// What is in force is latched on ~parameter_updates and kept on the parameter server, so that a
-// node that is started again keeps it.
+// The values in force are latched on ~parameter_updates. A changed value is also written to the
+// parameter server: a node that is respawned begins with it, until a launch file loads its own
+// value again.
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>
@@ -33,7 +35,8 @@ class ReconfigurableParams {
   using Values = std::map<std::string, double>;  // of all reconfigurable parameters, by name
   using Apply = std::function<void(const Values&)>;
 
-  // `apply` throws std::invalid_argument to refuse a change, and then has changed nothing.
+  // `apply` is called with each change, not at the start. To refuse a change it must throw
+  // std::invalid_argument and must have changed nothing.
   ReconfigurableParams(const ros::NodeHandle& private_handle,
                        const std::vector<Parameter>& parameters, const Apply& apply);
 
