@@ -17,12 +17,13 @@ class BeliefTracker {
   // Validates the parameters.
   explicit BeliefTracker(const HmmParams& params);
 
-  // One step of the HMM for each: an observation where the target is tracked, else a prediction.
+  // One step of the HMM for each forecast: an observation where the status is kTracking, else a
+  // prediction, also for a refused (null) forecast.
   void update(const std::vector<ForecastArrival>& forecasts);
 
   [[nodiscard]] Intent intent() const { return most_probable(belief_); }
   [[nodiscard]] const Eigen::Vector3d& posterior() const { return belief_.posterior; }
-  // Null until one has come.
+  // The newest that was not refused; null until one has come.
   [[nodiscard]] const std::shared_ptr<const TargetForecast>& forecast() const { return forecast_; }
   // Stamp of the last measurement of the target.
   [[nodiscard]] std::optional<Stamp> measured() const { return measured_; }

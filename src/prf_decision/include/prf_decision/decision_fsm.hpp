@@ -3,9 +3,10 @@
 //
 //   state + event [dwelled] = next
 //
-// A pair that is not listed stays. A row marked kDwelled acts only when the published state has
-// lasted the dwell time: it follows the HMM, whose belief may chatter. The other rows are guards,
-// milestones and goals, which act at once and whatever the HMM believes.
+// An event that is not listed for a state leaves the state as it is. A row marked kDwelled acts
+// only when the published state has lasted the dwell time: its event comes from the HMM, whose
+// belief may chatter. The events of the other rows come from guards, milestones and goals. These
+// rows act at once and whatever the HMM believes.
 #pragma once
 
 #include <array>
@@ -34,7 +35,7 @@ enum class State {
   kForward,
   kPause,
   kRewindPaused,
-  kReverse,
+  kReverse,    // back along the skill, as far as its start, until the HMM believes otherwise
   kRewinding,  // back to the start of the skill, before the execution begins
   kTracking,   // of the target, at the end of the skill
   kRetract,    // back from the target
@@ -57,7 +58,7 @@ enum class Event {
   kAtStart,    // cursor and hand are at the start of the skill to execute
   kPreempted,  // the goal was cancelled
   kBegin,      // a goal begins where the cursor is
-  kBeginAway   // a goal begins, the cursor or the demonstration is not where it shall begin
+  kBeginAway   // a goal begins at the start; the cursor is elsewhere or on another demonstration
 };
 inline constexpr std::size_t kEvents = 14;
 

@@ -2,12 +2,13 @@
 // The switch to another demonstration, a state machine beside that of the execution:
 //
 //   requested    a goal names the demonstration; every progress names it until the planner answers
-//   returning    the planner has accepted it; the hand goes back along the skill before
+//   returning    the planner has accepted it; the hand goes back along the previous skill
 //   settled      the accepted demonstration is executed
 //
-// A request that the planner refuses, does not answer within kPatience, or that is preempted leaves
-// the demonstration accepted before. Every request has a number that comes back with the planner's
-// results, so that these are told apart.
+// A request ends without a switch when the planner refuses it, when the planner does not answer
+// within kPatience, or when the goal is preempted. Then the demonstration accepted before stays.
+// Every request has a number that comes back with the planner's results, so that these are told
+// apart.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ namespace prf_decision {
 enum class SwitchState {
   kSettled,            // the accepted demonstration is executed
   kRequested,          // a goal names another one, the planner has not answered yet
-  kReturning,          // accepted; the hand goes back along the skill before
+  kReturning,          // accepted; the hand goes back along the previous skill
   kReturningRequested  // the same, and a further goal names yet another one
 };
 inline constexpr std::size_t kSwitchStates = 4;
@@ -72,8 +73,13 @@ struct NamedDemonstration {
   std::uint32_t number = 0;
 };
 
-// What a planner's result is for.
-enum class PlanFor { kAnotherRequest, kRefused, kAccepted, kCurrent };
+// Which demonstration a planner's result is for.
+enum class PlanFor {
+  kAnotherRequest,  // one that is no longer asked for: to be ignored
+  kRefused,         // the requested one, which is refused
+  kAccepted,        // the requested one, for the first time: it is accepted now
+  kCurrent          // the one accepted before
+};
 
 class DemonstrationSwitch {
  public:
@@ -84,10 +90,12 @@ class DemonstrationSwitch {
   void end_request() { state_ = step(state_, SwitchEvent::kEnded); }
   void arrive() { state_ = step(state_, SwitchEvent::kArrived); }
 
-  // Takes the number and the refusal of a planner's result.
+  // Takes a planner's result: the number of its request, and whether the planner refused that.
+  // Accepts or ends the request where the number is its own.
   [[nodiscard]] PlanFor receive(std::uint32_t number, bool refused);
 
-  // Whether the planner's answer is overdue at this tick; counts from the first call.
+  // Whether the planner's answer is overdue at this tick. The time counts from the first call after
+  // the request. False when nothing is requested.
   [[nodiscard]] bool is_overdue(Stamp tick);
 
   [[nodiscard]] SwitchState state() const { return state_; }

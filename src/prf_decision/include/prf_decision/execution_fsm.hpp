@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the table of decision_fsm.hpp: the state, since when it is published, and why.
+// Runs the table of decision_fsm.hpp. Holds the state, since when it is published, and why.
 #pragma once
 
 #include <string>
@@ -13,13 +13,16 @@ class ExecutionFsm {
  public:
   // Whether an execution can begin: none is under way.
   [[nodiscard]] bool can_begin() const { return step(state_, Event::kBegin, true) != state_; }
+  // Needs can_begin(). `away`: by kBeginAway, the hand has to go back to the start first.
   void begin(Stamp stamp, bool away);
 
-  // Whether the event has a row that acts. Since when and why a state holds are kept where the
-  // published state stays.
+  // Takes the transition of the event and returns whether the table has one. When the published
+  // state changes, `stamp`, `event` and `reason` become its beginning and its cause; else the
+  // former ones stay.
   bool fire(Stamp stamp, Event event, const std::string& reason, Duration dwell_time);
 
-  // The reason why a state that waits for something still holds.
+  // Replaces the reason in states that wait for something (waiting, pause, reverse, retract),
+  // unless `reason` is empty.
   void explain(const std::string& reason);
 
   [[nodiscard]] State state() const { return state_; }
@@ -32,7 +35,7 @@ class ExecutionFsm {
  private:
   State state_ = State::kIdle;
   Event cause_ = Event::kHazard;  // that led into the published state
-  std::string reason_;            // why the state holds; empty while nothing is to be said
+  std::string reason_;            // why the state holds; may be empty
   Stamp since_{0};                // that the published state holds
 };
 

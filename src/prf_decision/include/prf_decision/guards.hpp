@@ -13,11 +13,11 @@
 namespace prf_decision {
 
 struct GuardParams {
-  Duration max_gap{0};                                 // between ticks
-  Duration pause_after{0};                             // since the last measurement, T1
-  Duration reverse_after{0};                           // T2 > T1
-  Duration stop_after{0};                              // T3 > T2
-  Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  // its centre in the planning frame, m
+  Duration max_gap{0};        // between ticks, parameter max_wait
+  Duration pause_after{0};    // since the last measurement, T1 = coast_limits[0]
+  Duration reverse_after{0};  // T2 = coast_limits[1] > T1
+  Duration stop_after{0};     // T3 = coast_limits[2] > T2
+  Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  // of the arm, in the planning frame, m
   double max_reach = 0;                                // hand from the shoulder, m
   double workspace_radius = 0;                         // target from the shoulder, m
   double max_target_speed = 0;                         // m/s
@@ -36,7 +36,7 @@ struct GuardInput {
   bool forecast_silent = false;        // no forecast for longer than max_wait
   const Trajectory* plan{};            // of the demonstration to execute
   std::optional<std::string> no_plan;  // reason, when the planner's last result has no plan
-  bool planner_silent = false;
+  bool planner_silent = false;         // no result of the planner for longer than max_wait
 };
 
 struct Violation {
@@ -54,7 +54,7 @@ struct Guard {
   const char* name;
   bool adapted_once;      // also where the skill is adapted once and executed blindly
   const char* violation;  // what it reports
-  const char* events;
+  const char* events;     // for the table; the check chooses the event
   Check* check;
 };
 
@@ -79,7 +79,8 @@ inline constexpr std::array kGuards{
 [[nodiscard]] std::optional<Violation> check_guards(const GuardParams& params,
                                                     const GuardInput& input, bool adapted_once);
 
-// Where the hand shall be at `time`, moving with the target.
+// Where the hand shall be at `time`, moving with the target: the plan's goal_in_target on the
+// predicted target. Throws std::invalid_argument when the forecast has no predictions.
 [[nodiscard]] MovingPose goal_at(const TargetForecast& forecast, const Trajectory& plan,
                                  Stamp time);
 

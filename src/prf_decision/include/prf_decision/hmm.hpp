@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hidden Markov model of what the target's motion allows: go forward, pause, or go back.
 //
-// Observation o: velocity of the target in the planning frame, m/s. Hidden state i in the order
-// Forward, Pause, Reverse, with Gaussian emission b_i(o) = N(o; mean_i, covariance_i).
-// Forward filter (Rabiner 1989, scaled), one step per observation:
+// Observation o: velocity of the target in the planning frame, m/s, once for each forecast (one
+// period of the camera). Hidden state i in the order Forward, Pause, Reverse, with Gaussian
+// emission b_i(o) = N(o; mean_i, covariance_i). Forward filter (Rabiner 1989, scaled), one step per
+// observation:
 //   predicted_j = sum_i posterior_i A_ij,   posterior_j = predicted_j b_j(o) / sum_k (same)
 // The first observation uses the initial distribution as predicted.
 #pragma once
@@ -24,9 +25,9 @@ struct HmmParams {
   std::array<Eigen::Vector3d, kIntents> mean{};          // m/s
   std::array<Eigen::Matrix3d, kIntents> covariance{};    // m^2/s^2, positive definite
 
-  // std::invalid_argument names the entry, its value and the bound. Besides probabilities and
-  // covariances it refuses states in the wrong order (mean_square_speed must rise) and dead
-  // ones (every state must be reachable from every other).
+  // std::invalid_argument names the entry, its value and the bound. Besides wrong
+  // probabilities and covariances it refuses states in the wrong order (mean_square_speed must
+  // rise) and states that cannot be reached from every other.
   void validate() const;
 };
 
@@ -36,7 +37,7 @@ class EmissionModel {
   // Refuses covariances that are not positive definite, by name.
   explicit EmissionModel(const HmmParams& parameters);
 
-  // The velocity must be finite.
+  // std::invalid_argument when the velocity is not finite.
   [[nodiscard]] Eigen::Vector3d log_density(const Eigen::Vector3d& velocity) const;
 
  private:
@@ -61,10 +62,10 @@ class HmmFilter {
 
   [[nodiscard]] HmmBelief initial_belief() const;
 
-  // One period with an observation. Its velocity must be finite.
+  // One period with an observation. std::invalid_argument when the velocity is not finite.
   [[nodiscard]] HmmBelief observe(const HmmBelief& belief, const Eigen::Vector3d& velocity) const;
 
-  // One period without: the belief drifts toward the stationary distribution.
+  // One period without an observation: the belief drifts toward the stationary distribution.
   [[nodiscard]] HmmBelief predict(const HmmBelief& belief) const;
 
  private:

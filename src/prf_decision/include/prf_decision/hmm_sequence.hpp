@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Offline inference of the HMM's states over a whole run, what comes later included.
+// Offline inference of the HMM's states over a whole run: each state is inferred from earlier and
+// later observations.
 //
 // Forward-backward, scaled at every step (Rabiner 1989, section V.A), with s_k the scale:
 //   alpha_k = (A^T alpha_{k-1}) b(o_k) / s_k,     beta_k = A b(o_{k+1}) beta_{k+1} / s_{k+1},
@@ -27,8 +28,8 @@ struct SmoothingResult {
   double log_likelihood = 0;
 };
 
-// The parameters' probabilities are taken as they are, in any order of the states.
-// std::invalid_argument for an empty sequence, or one that the model makes impossible.
+// The parameters are not validated here: the states may be in any order. std::invalid_argument for
+// an empty sequence, and for one that has probability 0 in the model.
 [[nodiscard]] SmoothingResult smooth(const HmmParams& parameters, const Sequence& sequence);
 
 struct ViterbiResult {
@@ -41,6 +42,7 @@ struct ViterbiResult {
                                                const Sequence& sequence);
 
 // A run drawn from the model, every observation labelled. The same seed gives the same run.
+// Validates the parameters.
 [[nodiscard]] Sequence draw(const HmmParams& parameters, std::size_t observations,
                             std::uint32_t seed);
 

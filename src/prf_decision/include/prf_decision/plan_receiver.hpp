@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts the planner's results: plans of the demonstration that is executed, plans of the one that
-// it is switched to, refusals, and results without a plan.
+// Sorts the planner's results: plans of the demonstration that is executed, plans of the next one
+// (which the switch has accepted while the hand returns), refusals, and results without a plan.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@ namespace prf_decision {
 // A plan with what it was made for.
 struct PlannedSkill {
   std::shared_ptr<const Trajectory> plan;
-  Stamp stamp{0};                                  // of the progress that it answers
+  Stamp stamp{0};                                  // of the progress that it was made for
   std::shared_ptr<const TargetForecast> forecast;  // that was the newest then
 };
 
 struct ReceiveResult {
   std::optional<PlannedSkill> plan;    // to execute from now on
-  std::optional<std::string> refusal;  // why the requested demonstration is none
+  std::optional<std::string> refusal;  // why the requested demonstration was refused
 };
 
 class PlanReceiver {
@@ -29,13 +29,14 @@ class PlanReceiver {
   [[nodiscard]] ReceiveResult receive(const PlanResult& result,
                                       const std::shared_ptr<const TargetForecast>& forecast);
 
-  // The first plan of the demonstration that it is switched to, which is settled with that; none:
-  // nothing is switched, or no plan has come.
+  // To be called when the hand is at the start of the previous skill. Takes out the newest plan of
+  // the next demonstration and settles the switch; none: there is no next one, or it has no plan
+  // yet.
   [[nodiscard]] std::optional<PlannedSkill> arrive();
 
   [[nodiscard]] DemonstrationSwitch& demonstration() { return demonstration_; }
   [[nodiscard]] const DemonstrationSwitch& demonstration() const { return demonstration_; }
-  // Null until the demonstration that it is switched to has a plan.
+  // Null while there is no next demonstration or it has no plan yet.
   [[nodiscard]] const Trajectory* next_plan() const { return next_.plan.get(); }
   // Why the last result has no plan; none: it has one.
   [[nodiscard]] const std::optional<std::string>& no_plan() const { return no_plan_; }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the hand shall be: moves the cursor along the plan as the published state says, takes the
-// reference pose from the plan, its approach or the target, and limits the step of the set-point to
-// it (setpoint_limiter.hpp).
+// Says where the hand shall be. It moves the cursor along the plan as the published state says. It
+// takes the reference from the plan, its approach or the target. It moves the set-point toward the
+// reference with a limited step (setpoint_limiter.hpp).
 //
 //   state                        cursor    reference
 //   forward                      forward   the plan; on the approach relative to the target
 //   reverse, retract             back      the same
 //   pause                        stands    on the approach relative to the target, else none
-//   tracking, done               stands    the demonstrated pose relative to the target, `lead`
-//   later;
+//   tracking, done               stands    the demonstrated pose relative to the target, predicted
+//                                          for `lead` after the tick; none during a violation;
 //                                          adapted once: the plan's last pose
 //   waiting, stopped             stands    none; the set-point begins where the hand is measured
-// Without a reference the arm holds.
+// Without a reference the set-point stands still; in waiting and stopped there is no set-point,
+// and the arm holds.
 #pragma once
 
 #include <memory>
@@ -33,7 +34,7 @@ struct ReferenceParams {
   Adaptation adaptation = Adaptation::kContinuous;
   Duration lead{0};               // the tracked goal is taken this long after the tick
   double approach_length = 0;     // end of the skill that is executed relative to the target, m
-  double tracking_tolerance = 0;  // of the set-point from its reference, m
+  double tracking_tolerance = 0;  // distance of the set-point from its reference, m
   CatchUpParams catch_up;
 
   // std::invalid_argument names the parameter, its value and the bound.
@@ -44,9 +45,9 @@ struct ReferenceInput {
   Stamp stamp{0};
   Duration since_last_tick{0};
   ExecutionState state = ExecutionState::kWaiting;
-  std::optional<Pose> hand;          // as measured
+  std::optional<Pose> hand;          // as measured; none: not known
   const TargetForecast* forecast{};  // null: none that the hand may follow
-  bool violation = false;            // a guard reports one
+  bool violation = false;            // a guard reports one: the target is not tracked
 };
 
 struct ReferenceResult {
@@ -55,8 +56,8 @@ struct ReferenceResult {
 };
 
 struct GoalDistance {
-  double distance = 0;  // m
-  double axis = 0;      // to the line along which the hand arrives there, m
+  double distance = 0;  // to where the skill ends now, m
+  double axis = 0;      // to the line through there along the hand's z axis, m
 };
 
 class ReferenceGenerator {
@@ -76,9 +77,10 @@ class ReferenceGenerator {
   [[nodiscard]] const Trajectory* plan() const { return plan_.get(); }
   [[nodiscard]] double cursor() const { return cursor_; }
   [[nodiscard]] bool is_complete() const { return plan_ && at_end(*plan_, cursor_); }
-  // How long the set-point has tracked the goal without interruption at this tick.
+  // For how long the state has been tracking and the set-point within tracking_tolerance of its
+  // reference, without interruption; none: it is not so now.
   [[nodiscard]] std::optional<Duration> tracked_for(Stamp stamp) const;
-  // From the set-point to the goal at this tick.
+  // From the set-point to the goal at this tick; none without a plan, set-point or prediction.
   [[nodiscard]] std::optional<GoalDistance> goal_distance(const TargetForecast& forecast,
                                                           Stamp stamp) const;
 

@@ -42,8 +42,8 @@ struct Progress {
   Stamp stamp{0};
   Stamp forecast_stamp{0};  // 0: none yet
   ExecutionState state = ExecutionState::kWaiting;
-  Event cause = Event::kHazard;  // that led into the state
-  std::string reason;            // why the state holds; empty while nothing is to be said
+  Event cause = Event::kHazard;  // the event that led into the state
+  std::string reason;            // why the state holds; may be empty
   Eigen::Vector3d posterior = Eigen::Vector3d::Zero();
   double cursor = 0;
   double fraction = 0;     // of the skill executed, 0 .. 1
@@ -66,8 +66,10 @@ class SkillExecutive {
 
   [[nodiscard]] ExecutiveResult update(const Tick& tick);
 
-  // A goal can be given when no execution is under way. It begins with the next tick; one that
-  // names a demonstration when the planner has accepted that, or not at all: see Progress::refusal.
+  // A goal can be given when no execution is under way. It begins with the next tick. A goal that
+  // names a demonstration begins when the planner has accepted that; when it is refused the goal
+  // does not begin and Progress::refusal says why. begin() throws std::invalid_argument when
+  // can_begin() is false or the goal is not valid.
   [[nodiscard]] bool can_begin() const { return !goals_.next && fsm_.can_begin(); }
   void begin(const SkillGoal& goal);
   // Whether a goal waits for the planner to accept its demonstration.
@@ -76,7 +78,9 @@ class SkillExecutive {
   // Stops whatever is under way at the next tick, in any state.
   void preempt() { goals_.preempt_requested = true; }
 
-  // Other parameters from the next tick on; adaptation, autostart and the HMM stay as they are.
+  // Other parameters from the next tick on. Those for adaptation, autostart and the HMM are
+  // ignored; running executions keep their time limit and hold time. Throws what validate()
+  // refuses.
   void tune(const DecisionParams& params);
 
   // The whole state in one line, for logs.

@@ -4,12 +4,14 @@
 // order). On top of prf_core/stream.hpp, the rules of the decision:
 //
 //   forecast stamped c      is used from the first tick t with t - D >= c
-//   tick t waits for it     while t - D >= newest forecast + P - margin: one more could be due
-//   result for progress a   is used from the next tick, which waits for it
+//   tick t                  waits for a forecast while t - D >= newest forecast + P - 5 ms: one
+//                           more could be due (5 ms: jitter of the camera's stamps)
+//   result for progress a   is used from the tick after that of a, which waits for the result
 //   silence                 when the newest tick is more than max_wait ahead of the first one
 //                           waiting, the stream is silent and not waited for until it is heard
-// with D pipeline_delay and P camera_period. Before any forecast, "newest" is the first tick - P;
-// a forecast of an image taken before the first tick is not of this run and is dropped.
+// with D pipeline_delay and P camera_period. Before any forecast, the first tick - P stands for the
+// newest forecast. A forecast of an image taken before the first tick is not of this run and is
+// dropped.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +26,7 @@
 namespace prf_decision {
 
 struct GateParams {
-  Duration pipeline_delay{0};  // D, exposure of an image to its forecast, at most
+  Duration pipeline_delay{0};  // D, longest time from an image's exposure to its forecast
   Duration camera_period{0};   // P
   Duration max_wait{0};        // data time after which a stream is silent
 
@@ -32,13 +34,13 @@ struct GateParams {
   void validate() const;
 };
 
-// The planner's result for a progress: null plan with the reason when there is none.
+// The planner's result for a progress.
 struct PlanResult {
-  Stamp stamp{0};  // of the progress
-  std::shared_ptr<const Trajectory> plan;
+  Stamp stamp{0};                          // of the progress
+  std::shared_ptr<const Trajectory> plan;  // null: there is none, see message
   std::string message;
-  std::uint32_t demonstration_switch = 0;  // number of the demonstration that was wanted
-  bool refused = false;                    // that one cannot be followed
+  std::uint32_t demonstration_switch = 0;  // number of the demonstration requested
+  bool refused = false;                    // the planner cannot follow that
 };
 
 // A predictor's message: null forecast when it was refused on arrival.
@@ -60,7 +62,7 @@ enum class PushResult {
   kAccepted,
   kOld,       // not newer than the one before, or older than the run: dropped
   kFarAhead,  // more than a second ahead of the ticks: dropped
-  kNewRun     // the data's clock went back: everything before it is dropped
+  kNewRun     // ticks went back, or forecasts by more than a second: all earlier data is dropped
 };
 
 class TickGate {
