@@ -18,12 +18,13 @@ namespace elte_planner {
 
 enum class Alignment {
   kArcLength,           // nodes at equal shares of each path's length
-  kDynamicTimeWarping,  // nodes of the others to the first one's by least summed squared distance
+  kDynamicTimeWarping,  // each node of the first one is matched by least summed squared distance
 };
 
-// `nodes` mean samples. Every demonstration is first moved rigidly so that its target lies where
-// the first one's does. Times are means, too; orientations are those nearest to all (chordal mean).
-// Throws std::invalid_argument for no demonstrations or different frames.
+// The result has `nodes` samples, at least 3. Every demonstration is resampled to as many by arc
+// length and moved rigidly so that its target lies where the first one's does. Positions and times
+// are means, orientations are normalised mean quaternions. Throws std::invalid_argument when there
+// are no demonstrations, when frames differ, or when orientations at one node cancel each other.
 [[nodiscard]] Demonstration combined(const std::vector<Demonstration>& demonstrations,
                                      std::size_t nodes, Alignment alignment);
 

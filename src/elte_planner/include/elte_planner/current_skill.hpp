@@ -14,13 +14,15 @@ namespace elte_planner {
 
 class CurrentSkill {
  public:
-  // Throws std::invalid_argument when the first demonstration cannot be used.
+  // `demonstration`: path of the first file. `frame`: the planning frame, which every demonstration
+  // must name. Throws std::invalid_argument when the first demonstration cannot be used.
   CurrentSkill(const SessionParams& params, const std::string& demonstration,
                const std::string& frame);
 
   // Makes the requested demonstration the current one. Its file is read when the request differs
-  // from the last one, also when only the number does. Returns the reason when the demonstration
-  // cannot be used; then the skill before it stays current, with its plan.
+  // from the current one, also when only demonstration_switch differs. When the demonstration
+  // cannot be used, select() returns the reason, and the skill before it stays current with its
+  // plan. A refused request that is repeated gives the same reason, without reading the file again.
   [[nodiscard]] std::optional<std::string> select(const DemonstrationRequest& request);
 
   SkillSession& session() { return *session_; }

@@ -3,7 +3,7 @@
 // One demonstration of a skill: timed poses of the hand in the planning frame, and the pose of the
 // target while they were recorded.
 //
-// CSV form, of load_demonstration() and save_demonstration():
+// CSV form of load_demonstration() and save_demonstration(); the first three keys are required:
 //   # frame: j2s7s300_link_base                 frame of all poses
 //   # child_frame: j2s7s300_end_effector        the frame that was guided
 //   # target_pose: x y z qx qy qz qw            target in `frame`, m and unit quaternion
@@ -38,7 +38,8 @@ class Demonstration {
 
   using Notes = std::map<std::string, std::string>;
 
-  // Quaternions within prf_core::kUnitQuaternionTolerance of the unit are normalised.
+  // Quaternions within prf_core::kUnitQuaternionTolerance of the unit are normalised, others
+  // are refused.
   Demonstration(std::vector<TimedPose> samples, std::string frame, std::string child_frame,
                 const Pose& target, Notes notes = {});
 
@@ -54,17 +55,19 @@ class Demonstration {
   Eigen::MatrixXd positions() const;  // samples x 3, m
   double length() const;              // of the polyline, m
 
-  // `nodes` samples equally spaced along the arc, each with the time and (slerped) orientation of
-  // its place on the path. First and last sample are kept.
+  // `nodes` samples equally spaced along the arc, each with the time and orientation
+  // interpolated at its place on the path. First and last sample are kept. Throws
+  // std::invalid_argument for fewer than kMinSamples nodes.
   [[nodiscard]] Demonstration resampled_by_arc_length(std::size_t nodes) const;
 
-  // The `nodes` samples that Douglas and Peucker's subdivision takes first: always the sample
-  // farthest from the lines between those taken. Poses and times as demonstrated. There must be as
-  // many samples.
+  // Keeps `nodes` samples, chosen by Douglas and Peucker's subdivision: beginning with the first
+  // and the last sample, it takes again and again the sample farthest from the polyline through
+  // those taken. Poses and times stay as demonstrated. Throws std::invalid_argument unless `nodes`
+  // is within [kMinSamples, number of samples].
   [[nodiscard]] Demonstration resampled_by_douglas_peucker(std::size_t nodes) const;
 
-  // As many of them, but at least kMinSamples, as leave no sample farther than `tolerance` (m, >=
-  // 0) from the lines between those taken.
+  // The same subdivision, ended when at least kMinSamples are taken and no sample is farther than
+  // `tolerance` (m, >= 0) from the polyline. Throws std::invalid_argument for another tolerance.
   [[nodiscard]] Demonstration thinned_by_douglas_peucker(double tolerance) const;
 
  private:

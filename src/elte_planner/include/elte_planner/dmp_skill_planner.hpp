@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Dynamic movement primitive as the rival (Pastor, Hoffmann, Asfour, Schaal 2009), per dimension:
+// Dynamic movement primitive, to compare ELTE with (Pastor, Hoffmann, Asfour, Schaal 2009), per
+// dimension:
 //
 //   v' = K (g - x) - D v - K (g - x0) s + K f(s),   x' = v,   s' = -alpha s
 //   f(s) = s sum_i psi_i(s) w_i / sum_i psi_i(s),   psi_i(s) = exp(-h_i (s - c_i)^2)
 //
-// over the unit interval, the demonstration's nodes taken as equally spaced in it. The weights are
+// over the unit interval. The demonstration's nodes count as equally spaced in it; their times are
+// not used. The weights are
 // fitted to the demonstration by locally weighted regression. A plan goes on from the last frozen
 // node with its velocity and the changed goal; the goal is approached, not met.
 #pragma once

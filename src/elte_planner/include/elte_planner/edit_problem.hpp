@@ -42,7 +42,7 @@ struct PointConstraint {
 struct EditProblem {
   Eigen::MatrixXd zeta;  // demonstration, nodes x dimensions
   ElteWeights weights;
-  Eigen::MatrixXd fixed;  // first rows of y, possibly none
+  Eigen::MatrixXd fixed;  // values of the first rows of y, possibly none
   std::vector<PointConstraint> constraints;
   double max_step = std::numeric_limits<double>::infinity();
   double max_first_step = std::numeric_limits<double>::infinity();  // of the first free step
@@ -51,7 +51,8 @@ struct EditProblem {
 };
 
 struct EditParams {
-  double tolerance = 1e-13;    // of feasibility, relative to the extent of the problem
+  double tolerance = 1e-13;    // of feasibility, relative to the largest coordinate of the
+                               // demonstration and the constraints, from the first node
   int max_iterations = 20000;  // changes of the active set
 };
 
@@ -64,25 +65,27 @@ enum class EditStatus {
 
 struct EditSolution {
   EditStatus status = EditStatus::kIllPosed;
-  std::string message;        // one line when not solved
-  Eigen::MatrixXd y;          // nodes x dimensions; empty unless solved
-  double energy = 0.0;        // J(y)
-  double kkt_residual = 0.0;  // largest of the violations of stationarity, feasibility and signs
+  std::string message;  // one line when not solved
+  Eigen::MatrixXd y;    // nodes x dimensions; empty unless solved
+  double energy = 0.0;  // J(y)
+  double kkt_residual =
+      0.0;  // largest violation of stationarity, of feasibility, or of a multiplier's sign
 
-  // Force of each constraint on its node, constraints x dimensions: the gradient of J is minus
-  // their sum. For a ball the largest of its entries is -dJ/dr, for an equality minus the force is
-  // dJ/dp; that of a half-space is along its normal. Row i is zero when constraint i is not active.
+  // Force of each constraint on its node, constraints x dimensions. At a node the gradient of J is
+  // minus the sum of its constraints' forces. The largest entry of a ball's force is -dJ/dr. The
+  // force of an equality is -dJ/dp. The force of a half-space is along its normal. Row i is zero
+  // when constraint i is not active.
   Eigen::MatrixXd forces;
-  std::vector<int> active;  // constraints with a facet in the active set
+  std::vector<int> active;  // constraints with a facet (one linear inequality) in the active set
   int active_facets = 0;    // of constraints and step bounds
   int iterations = 0;
 };
 
-// Dual active-set method (Goldfarb and Idnani 1983). In the steps between nodes the Hessian is a
-// tridiagonal M-matrix whose factor is computed without subtractions; of the 2^d facets of a ball
-// only the violated one, sign(y_j - p), is ever formed.
-// Keeps its memory: solving again with the same sizes, at least two fixed rows and no more active
-// facets than before does not allocate.
+// Dual active-set method (Goldfarb and Idnani 1983). Written in the steps between nodes, the
+// Hessian is a tridiagonal M-matrix whose factor is computed without subtractions; of the 2^d
+// facets of a ball only the violated one, sign(y_j - p), is ever formed. Keeps its memory: solving
+// again with the same sizes, at least two fixed rows and no more active facets than before does not
+// allocate.
 class EditSolver {
  public:
   EditSolver();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Elastic map as the rival: instead of its shape, the demonstration's place is kept,
+// Elastic map, to compare ELTE with: it keeps the demonstration's positions instead of its shape,
 //
 //   minimise |y - zeta|^2 + w_E |E y|^2 + w_R |R y|^2
 //

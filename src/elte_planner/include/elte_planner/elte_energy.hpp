@@ -5,9 +5,9 @@
 //   J(y) = |L(y - zeta)|^2 + w_E |E y|^2 + w_R |R y|^2
 //
 // y and zeta (the demonstration) are N nodes x d dimensions, E is the first difference, R the
-// second difference (rows [1 -2 1]). L is the graph Laplacian of the chain: -R/2 at the inner nodes
-// and, by choice, nothing or the one-sided differences at the two end nodes.
-// All weights are per node and without unit.
+// second difference (rows [1 -2 1]). L is the graph Laplacian of the chain: -R/2 at the inner
+// nodes. At the two end nodes it is nothing or the one-sided difference; ElteWeights::laplacian
+// chooses. All weights are per node and without unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 namespace elte_planner {
 
 enum class Laplacian {
-  kFreeEnds,       // inner rows only, as the authors' published code
+  kFreeEnds,       // inner rows only, as the published code of ELTE's authors
   kRowNormalised,  // with end rows y0-y1 and y_{N-1}-y_{N-2}: keeps the tangents at the ends
 };
 
@@ -25,14 +25,14 @@ struct ElteWeights {
   Laplacian laplacian = Laplacian::kFreeEnds;
 
   void validate() const;                               // throws std::invalid_argument
-  double curvature() const { return 0.25 + bending; }  // q, the weight of |R y|^2 in all
+  double curvature() const { return 0.25 + bending; }  // total weight of |R y|^2
 
   // Number of nodes over which a disturbance decays; a demonstration much longer than this is
   // pulled toward a straight line.
   double decay_nodes() const;
 };
 
-// Coordinates beyond it are refused like infinite ones: their squares and sums would be.
+// Coordinates beyond it are refused like infinite ones, so that their squares and sums are finite.
 constexpr double kMaxMagnitude = 1e100;
 [[nodiscard]] bool is_within_magnitude(const Eigen::Ref<const Eigen::MatrixXd>& values);
 
@@ -66,9 +66,9 @@ void project_on_l1_ball(const Eigen::Ref<const Eigen::VectorXd>& centre, double 
                                            const Eigen::Ref<const Eigen::VectorXd>& goal,
                                            double radius);
 
-// How much of the demonstration's shape the elastic term costs without any editing (both ends
-// kept): largest displacement over the largest distance from the chord. 0 is none, 1 a straight
-// line; 0 for a demonstration that is straight itself.
+// Share of the demonstration's shape that the weights alone remove when only both ends are kept:
+// largest displacement of a node over the largest distance from the chord. 0: nothing is lost; 1:
+// the plan is a straight line. 0 for a demonstration that is straight itself.
 [[nodiscard]] double shape_loss(const Eigen::MatrixXd& zeta, const ElteWeights& weights);
 
 }  // namespace elte_planner

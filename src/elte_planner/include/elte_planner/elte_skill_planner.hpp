@@ -4,8 +4,9 @@
 // bending terms and with the row-normalised Laplacian it is Laplacian trajectory editing (LTE,
 // Nierhoff, Hirche, Nakamura 2016).
 //
-// A bound s on the steps leaves only the ball of radius m s around the last frozen node to the m
-// free ones. When the goal's ball is beyond it, its radius is opened by what is missing.
+// With a bound s on the steps and m free nodes, the last node can lie no farther (l1) than m s from
+// the last frozen node. When the goal's ball is farther away, its radius is enlarged by what is
+// missing.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,8 +11,9 @@
 // is isotropic over the dimensions, so the best end point in the l1 ball is the Euclidean
 // projection of the best free one.
 //
-// Because e_k within a block of nodes is affine in (v, e) at the block's start, the tables of that
-// map turn the roll-out, a chain of dependent operations, into independent ones per block.
+// The nodes are cut into blocks of consecutive nodes. Because e_k within a block is affine in (v,
+// e) at the block's start, the tables of that map turn the roll-out, a chain of dependent
+// operations, into independent ones per block.
 #pragma once
 
 #include <Eigen/Core>

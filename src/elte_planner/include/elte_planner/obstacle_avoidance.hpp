@@ -7,10 +7,10 @@
 //
 // Both ends of a segment beyond a plane that the obstacle touches, `clearance` away from it, is
 // enough for the whole segment. The planes are taken from the present plan's nearest points and the
-// convex problem is solved again until the plan rests: from a plan that keeps the clearance the
-// next one does, too, at no more energy. Where a plan runs into an obstacle, the sides on which it
-// could pass are tried in turn and the plan of least energy is taken: a local minimum, the best of
-// those tried.
+// convex problem is solved again until the plan changes no more: from a plan that keeps the
+// clearance the next one does, too, at no more energy. Where a plan runs into an obstacle, the
+// sides on which it could pass are tried in turn, and the plan of least energy among those tried is
+// returned. It is a local minimum.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,14 +33,15 @@ struct AvoidanceProblem {
 struct AvoidanceParams {
   int max_passes = 200;     // convex problems per choice of sides
   int max_choices = 64;     // of sides
-  double tolerance = 1e-9;  // of rest, relative to the extent of the demonstration
+  double tolerance = 1e-9;  // change of a plan that counts as none, relative to the demonstration's
+                            // largest coordinate from its first node
 };
 
 enum class AvoidanceStatus {
   kSolved,
   kNotFound,        // no way on any side that was tried; that is no proof that there is none
-  kInfeasible,      // already without the obstacles, and this is proved
-  kIllPosed,        // without the obstacles
+  kInfeasible,      // the problem without the obstacles is proved infeasible
+  kIllPosed,        // the problem without the obstacles is ill-posed
   kIterationLimit,  // numerical failure
 };
 

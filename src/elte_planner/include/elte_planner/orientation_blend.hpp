@@ -2,9 +2,10 @@
 //
 // Orientations along an edited path. The demonstrated orientation D_k is corrected by a rotation
 // C_k of the planning frame, R_k = C_k D_k: at the last frozen node C is what the previous plan has
-// there, at the last nodes it takes D to their goals, between them it follows the geodesic evenly
-// by node. So frozen nodes stay, the orientation is continuous at the cursor, the end is the goal,
-// and planning again one node later for the same goals changes nothing.
+// there, at the last nodes it takes D to their goals, between them it moves along the geodesic by
+// the same angle at each node. So frozen nodes stay, the orientation is continuous after the last
+// frozen node, the end is the goal, and planning again one node later for the same goals changes
+// nothing.
 #pragma once
 
 #include <Eigen/Core>

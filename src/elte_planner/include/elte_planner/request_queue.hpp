@@ -13,7 +13,7 @@ namespace elte_planner {
 
 struct JoinedRequest {
   Progress progress;
-  std::optional<prf_core::TargetForecast> forecast;  // nothing: a newer one came, this one did not
+  std::optional<prf_core::TargetForecast> forecast;  // empty: lost, later messages came without it
   bool new_run = false;                              // stamps jumped back before this request
 };
 
@@ -22,7 +22,7 @@ class RequestQueue {
   void add(const Progress& progress);
   void add(const prf_core::TargetForecast& forecast);
 
-  // The oldest request whose forecast is decided.
+  // The oldest request, once no later message can change whether its forecast comes; else nullopt.
   [[nodiscard]] std::optional<JoinedRequest> next();
 
   std::size_t waiting() const { return joiner_.waiting(); }

@@ -17,7 +17,7 @@ namespace elte_planner {
 
 enum class PlanStatus {
   kSolved,
-  kRelaxed,  // infeasible as asked; the radius was opened by `slack`
+  kRelaxed,  // infeasible as asked; the radius was enlarged by `slack`
   kFailed,   // no plan, the message says why
 };
 
@@ -32,7 +32,7 @@ struct PlanRequest {
   Eigen::Index frozen = 2;   // 2 .. nodes
   Eigen::VectorXd goal;
   double radius = 0.0;                  // of the l1 ball around the goal, >= 0
-  std::vector<NodeBall> approach = {};  // of free nodes before the last; elte and lte keep to them
+  std::vector<NodeBall> approach = {};  // of free nodes before the last; only elte and lte use them
 };
 
 struct PlanResult {

@@ -7,9 +7,9 @@
 // Node k of the plan is reached at t_k. Each of the last nodes (those within approach_length of the
 // end) has a goal: its demonstrated pose in the target's frame, placed on the target as predicted
 // for t_k. Its position may differ from the goal by an l1 ball of radius
-//   r_k = clamp(r(P), radius_min, radius_max) + 0.1 |distance to the end|
-// where r(P) holds the probability `confidence` of the predicted position (confidence_radius.hpp).
-// All poses are in the planning frame.
+//   r_k = clamp(r(P), radius_min, radius_max) + 0.1 |straight distance to the end|,
+// 0.1 chosen by hand, where r(P) holds the probability `confidence` of the predicted position
+// (confidence_radius.hpp). All poses are in the planning frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -79,17 +79,20 @@ struct SkillResult {
 
 class SkillSession {
  public:
-  // Throws std::invalid_argument.
+  // Throws std::invalid_argument for parameters that validate() or make_skill_planner() refuses.
   SkillSession(const SessionParams& params, const Demonstration& demonstration);
 
-  // forecast: the one that the progress names; null when it was lost on its way. A forecast that is
-  // lost or invalid keeps the last plan.
+  // forecast: the one that the progress names; null when it was lost on its way. When it is null
+  // or invalid, has no target or a lost one, or the planner fails, the result is the last plan as
+  // kKept, or no poses as kNoPlan before the first plan. A coasting target is used, but not for
+  // kOnce. Does not throw for a bad forecast.
   [[nodiscard]] SkillResult plan(const Progress& progress,
                                  const prf_core::TargetForecast* forecast);
 
   void reset();  // a new run: forgets the plan
 
-  // One line when the weights alone cost more than half of the demonstrated shape, else empty.
+  // A warning in one line when the weights alone remove at least half of the demonstrated shape
+  // (shape_loss() in elte_energy.hpp); else empty.
   [[nodiscard]] std::string shape_warning() const;
 
   const Pose& goal_in_target() const { return goal_in_target_; }
