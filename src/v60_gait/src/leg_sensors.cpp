@@ -6,7 +6,7 @@
 namespace v60_gait {
 namespace {
 
-// Assumed, as of a small industrial inertial unit and encoders of 16 bits.
+// Chosen by hand; no data sheet was used.
 constexpr double kAngleNoise = 1e-4;      // rad, of a joint
 constexpr double kRateNoise = 3e-3;       // rad/s, of a joint
 constexpr double kGyroNoise = 1.5e-3;     // rad/s

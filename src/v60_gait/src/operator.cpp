@@ -7,7 +7,7 @@
 namespace v60_gait {
 namespace {
 
-// Assumed, as of a person who watches the robot from beside the treadmill.
+// Chosen by hand, for a person who watches the robot from beside the treadmill.
 constexpr double kObservationPeriod = 0.1;  // s
 constexpr double kReactionTime = 0.7;       // s
 constexpr double kSmoothingWeight = 0.25;  // of a new observation, so that the sway is not followed

@@ -16,8 +16,9 @@ namespace v60_gait {
 /// Throws std::invalid_argument, which lists the gaits, if there is none of that name.
 void require_gait(const std::string& name);
 
-/// Controller of a gait for a robot that is in its stance. `friction` is the Coulomb coefficient of
-/// the feet on the deck; `seed` sets what the gait does at random.
+/// Controller of a gait for a robot that is in its stance. `friction`: Coulomb coefficient of the
+/// feet on the deck, for the friction cones of stand and step. `seed`: of the placing errors of
+/// step and of which pair of feet it lifts first. Throws like require_gait().
 [[nodiscard]] std::unique_ptr<LegController> make_leg_controller(const std::string& gait,
                                                                  const Stance& stance,
                                                                  const BodyModel& body,

@@ -5,7 +5,7 @@
 
 namespace v60_gait {
 
-/// Order: fl, fr, rl, rr; within a leg abduction, hip, knee.
+/// Order: fl, fr, rl, rr (front and rear, left and right); within a leg abduction, hip, knee.
 using LegVector = Eigen::Matrix<double, 12, 1>;
 
 /// All inputs of a leg controller: encoders, inertial unit and the operator's joystick.
@@ -20,7 +20,7 @@ struct LegObservation {
 };
 
 /// Locomotion controller of the quadruped, called at every physics step. It knows nothing of the
-/// arm, the platform or the task.
+/// platform or the task; of the arm it knows what BodyModel (stance.hpp) tells.
 class LegController {
  public:
   virtual ~LegController() = default;

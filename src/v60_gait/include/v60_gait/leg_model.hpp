@@ -10,6 +10,7 @@
 namespace v60_gait {
 
 /// Leg of three rotary joints: toe = O1 R1(q1) O2 R2(q2) O3 R3(q3) toe_in_lower, in base_link.
+/// Oi: pose of the i-th joint's frame in the segment before; Ri: turn about its axis.
 class LegModel {
  public:
   /// Leg with joints <name>_abduction, _hip, _knee and link <name>_toe. Throws
@@ -20,10 +21,12 @@ class LegModel {
   [[nodiscard]] Eigen::Vector3d toe(const Eigen::Vector3d& angles) const;
   /// d toe / d angles, m/rad.
   [[nodiscard]] Eigen::Matrix3d jacobian(const Eigen::Vector3d& angles) const;
-  /// Torques, Nm, that carry the leg's own mass at rest; `gravity` in base_link, m/s2.
+  /// Torques, Nm, that carry the leg's own mass at rest with the toe free; `gravity` in base_link,
+  /// m/s2.
   [[nodiscard]] Eigen::Vector3d weight_torques(const Eigen::Vector3d& angles,
                                                const Eigen::Vector3d& gravity) const;
-  /// Newton's method from `start`; throws std::invalid_argument if it does not arrive.
+  /// Joint angles, rad, that bring the toe to `toe`, by Newton's method from `start`. Throws
+  /// std::invalid_argument if the iteration does not converge, as for a toe out of reach.
   [[nodiscard]] Eigen::Vector3d angles(const Eigen::Vector3d& toe,
                                        const Eigen::Vector3d& start) const;
 

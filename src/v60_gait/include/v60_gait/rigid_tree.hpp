@@ -21,12 +21,14 @@ struct RobotJoint {
 struct CollisionPrimitive {
   enum class Kind { kSphere, kBox, kCylinder };
   Kind kind = Kind::kSphere;
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< box: edges; else radius, -, length along z
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m; box: edges; sphere: (radius, -, -);
+  ///< cylinder: (radius, -, length along z)
   std::string link;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the body's first link
 };
 
-/// Links that fixed joints hold together, in the frame of the first of them.
+/// Links that fixed joints hold together, in the frame of the one nearest to the root (the first
+/// link). Vectors and inertia are in that frame's axes.
 struct RigidBody {
   std::string name;  ///< first link
   int parent = -1;
@@ -53,7 +55,8 @@ struct RigidTree {
 
 /// Throws std::invalid_argument for text that is no URDF, joints other than revolute, continuous
 /// and fixed, meshes as collision shapes, and moving bodies without mass or with an inertia that
-/// no solid has. With `fixed_base` the base may be without mass.
+/// is not positive definite or violates the triangle inequality of principal moments. With
+/// `fixed_base` the base need not have mass.
 [[nodiscard]] RigidTree rigid_tree_from_urdf(const std::string& urdf_xml, bool fixed_base);
 
 }  // namespace v60_gait

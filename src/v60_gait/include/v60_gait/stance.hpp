@@ -15,14 +15,16 @@ constexpr std::array<const char*, 4> kLegNames{"fl", "fr", "rl", "rr"};
 
 [[nodiscard]] std::array<std::string, 12> leg_joint_names();
 
-/// The measured standing posture of a Vision 60: toes at (+-0.31, +-0.17, -0.506) m in base_link.
+/// Standing posture: toes at (+-0.31, +-0.17, -0.506) m in base_link. These are the toes of a
+/// standing Vision 60 with arm, as it logged them, made symmetric.
 struct Stance {
   std::vector<LegModel> legs;                   ///< in the order of kLegNames
   std::array<Eigen::Vector3d, 4> toes_in_base;  ///< m
   LegVector posture;                            ///< rad
 };
 
-/// Throws std::invalid_argument if the robot has no such legs or they cannot reach.
+/// Throws std::invalid_argument if the robot has no such legs or they cannot reach
+/// the toes' places.
 [[nodiscard]] Stance find_stance(const RigidTree& robot);
 
 /// What the legs carry.
@@ -31,8 +33,8 @@ struct BodyModel {
   Eigen::Vector3d centre_of_mass_in_base = Eigen::Vector3d::Zero();  ///< m, of the whole robot
 };
 
-/// Torques, Nm, that carry the robot at rest in its stance on a level deck, with vertical forces
-/// of least sum of squares at the toes.
+/// Torques, Nm, that carry the robot at rest in its stance on a level deck, by vertical forces at
+/// the toes. Of the forces that balance the robot those with the least sum of squares are taken.
 [[nodiscard]] LegVector standing_torques(const BodyModel& body, const Stance& stance);
 
 }  // namespace v60_gait

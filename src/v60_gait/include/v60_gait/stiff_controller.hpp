@@ -5,7 +5,8 @@
 
 namespace v60_gait {
 
-/// Stands by holding a posture stiffly: tau = tau_load + kp (q_stand - q) - kd dq.
+/// Stands by holding a posture stiffly: tau = tau_load + kp (q_stand - q) - kd dq, with
+/// kp = 600 Nm/rad and kd = 30 Nm s/rad, chosen by hand.
 class StiffController : public LegController {
  public:
   /// `load`: torques that carry the robot at rest in that posture, Nm.
