@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pinhole camera and one grey image of it.
+// A pinhole camera and one grey image taken by it.
 //
 // A point (X, Y, Z) of the optical frame (x right, y down, z forward) is seen at
 //   u = fx X / Z + cx,  v = fy Y / Z + cy,
@@ -28,6 +28,7 @@ struct CameraIntrinsics {
   void validate() const;
 };
 
+// 8 bit grey levels, row by row from the top. The view does not own them.
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width = 0;

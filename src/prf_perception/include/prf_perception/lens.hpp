@@ -11,16 +11,18 @@
 
 namespace prf_perception {
 
-// Where a pixel of the ideal pinhole is seen through the lens.
+// Where a pixel of the ideal pinhole is seen through the lens. All functions here take and return
+// pixels.
 [[nodiscard]] Eigen::Vector2d distorted(const Eigen::Vector2d& ideal,
                                         const CameraIntrinsics& camera);
 
-// The inverse; not finite where the lens shows nothing.
+// The inverse, by Newton's method. May be not finite for a pixel that the model reaches from
+// nowhere.
 [[nodiscard]] Eigen::Vector2d undistorted(const Eigen::Vector2d& seen,
                                           const CameraIntrinsics& camera);
 
 // Corners of a marker for the ideal pinhole. libapriltag intersects straight lines, fitted to edges
-// that the lens bends: what that shifts is worked out from the bent edges and taken off.
+// that the lens bends: the shift of each corner is computed from the bent edges and removed.
 [[nodiscard]] Corners ideal_corners(const Corners& seen, const CameraIntrinsics& camera);
 
 }  // namespace prf_perception

@@ -7,8 +7,9 @@
 // both are searched and the lower one is returned.
 //
 // Covariance: J is the Jacobian of the corners in (t, rotation vector about the optical axes), s
-// the standard deviation of a corner, d the rotation from the returned minimum to the other one
-// and w the probability, by the two errors, that the other one is right:
+// the standard deviation of a corner (corner_sigma sqrt(100 px / mean side)), d the rotation from
+// the returned minimum to the other one and w the probability that the other one is right, w = 1 /
+// (1 + exp((e_other - e) / (2 s^2))):
 //   P = s^2 (J^T J)^-1 + diag(floors)^2 + w d d^T (rotation block).
 // J carries the dependence on distance and view angle.
 #pragma once
@@ -28,7 +29,7 @@ using Corners = std::array<Eigen::Vector2d, 4>;
 
 struct CornerErrorModel {
   double corner_sigma = 0.0;       // of one corner of a square with sides of 100 px, px
-  double position_floor = 0.0;     // standard deviation that no view undercuts, m
+  double position_floor = 0.0;     // standard deviation that is added to every view's, m
   double orientation_floor = 0.0;  // the same, rad
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
@@ -42,7 +43,8 @@ struct SquarePose {
   double other_error = 0.0;                // of the other minimum, px; infinite when there is none
 };
 
-// `guess` must lie in the basin of either minimum. Nothing is returned when the corners are not
+// side: of the marker, m. guess: start of the minimisation, a pose from which it converges to one
+// of the minima, such as a tag library's own estimate. Nothing is returned when the corners are not
 // finite, degenerate, or fit no marker in front of the camera.
 [[nodiscard]] std::optional<SquarePose> estimate_square_pose(const Corners& corners,
                                                              const CameraIntrinsics& camera,
@@ -50,7 +52,7 @@ struct SquarePose {
                                                              const Eigen::Isometry3d& guess,
                                                              const CornerErrorModel& model);
 
-// Where the corners of the marker appear.
+// Pixels of the marker's corners in the ideal pinhole, without lens distortion.
 [[nodiscard]] Corners project_corners(const Eigen::Isometry3d& marker_in_camera, double side,
                                       const CameraIntrinsics& camera);
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins two streams by equal stamps, whatever the order in which the streams arrive.
 //
-// Stamps within a stream rise. Every message of the first stream comes out exactly once, in order:
-// with the message of the second stream of the same stamp, or alone once it is certain that none
-// will come (the second stream is past that stamp), or after `max_wait` of the first stream. Unlike
-// prf_core/stream_joiner.hpp it waits for the second stream at every message, also when the second
-// stream has just been silent: an image without camera_info is lost.
-// A stamp more than kNewRun behind the newest of its stream starts a new run.
+// Stamps within a stream must rise; this is not checked. Within a run every message of the first
+// stream comes out exactly once, in order: with the message of the second stream of the same stamp,
+// or alone once it is certain that none will come (the second stream is past that stamp), or when
+// the first stream's newest stamp is more than `max_wait` later. Unlike prf_core/stream_joiner.hpp
+// it waits for the second stream at every message, also when the second stream has just been
+// silent: an image is of no use without its camera_info. A stamp more than kNewRun behind the
+// newest of its stream starts a new run.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +40,8 @@ class StampJoin {
     return new_run;
   }
 
-  // The oldest message of the first stream when no later message can change what it is joined with.
+  // The oldest message of the first stream when no later message can change what it is joined with;
+  // else nullopt.
   [[nodiscard]] std::optional<Joined> pop() {
     if (firsts_.queue.empty()) return std::nullopt;
     const prf_core::Stamp stamp = firsts_.queue.front().first;

@@ -17,10 +17,10 @@ namespace prf_perception {
 struct TagDetectorParams {
   std::string family;              // tag36h11, tag36h10, tag25h9 or tag16h5
   double tag_size = 0.0;           // side of the black border's outer edge, m, > 0
-  int max_hamming = 0;             // corrected bits accepted, 0 .. 2
-  double min_decision_margin = 0;  // contrast accepted, grey levels, >= 0
+  int max_hamming = 0;             // most corrected bits accepted, 0 .. 2
+  double min_decision_margin = 0;  // least contrast accepted, grey levels, >= 0
   double quad_decimate = 0.0;      // squares are searched in the image reduced by this, 1 .. 4
-  int min_white_black_diff = 0;    // contrast between face and border, grey levels, 1 .. 255
+  int min_white_black_diff = 0;    // least contrast between face and border, grey levels, 1 .. 255
   CornerErrorModel error_model;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
@@ -36,12 +36,14 @@ struct TagDetection {
 
 class TagDetector {
  public:
+  // Throws like TagDetectorParams::validate().
   explicit TagDetector(const TagDetectorParams& params);
   ~TagDetector();
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
 
-  // The image is as the lens shows it, nothing need be rectified.
+  // The image must not be rectified: distortion is taken from `camera`. A tag whose pose cannot be
+  // estimated is left out.
   // Throws std::invalid_argument when the image's size is not the camera's or below 32 px.
   [[nodiscard]] std::vector<TagDetection> detect(const ImageView& image,
                                                  const CameraIntrinsics& camera);
