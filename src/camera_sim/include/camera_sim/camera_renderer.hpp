@@ -39,7 +39,7 @@ class CameraRenderer {
 
   [[nodiscard]] cv::Mat render(const CameraView& view) const;
   /// Mean of the renderings of instants spread over an exposure: motion blur.
-  /// Throws std::invalid_argument if there is none.
+  /// Throws std::invalid_argument if `exposure` is empty.
   [[nodiscard]] cv::Mat render(const std::vector<CameraView>& exposure) const;
 
  private:

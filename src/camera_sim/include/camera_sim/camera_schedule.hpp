@@ -18,7 +18,7 @@ struct CameraTiming {
   void validate() const;
 };
 
-/// One image to be: where camera and platform are during its exposure.
+/// One image to be drawn: where camera, platform and the box's carrier are during its exposure.
 struct Frame {
   std::uint64_t index = 0;
   std::int64_t stamp_ms = 0;  ///< middle of the exposure
@@ -26,18 +26,22 @@ struct Frame {
 };
 
 /// 30 frames a second on the grid of 1 ms: frame k is stamped first_ms + round(1000 k / 30) and
-/// seen at instants spread evenly and symmetrically over its exposure, one for each 3 ms begun.
+/// seen at instants spread evenly and symmetrically over its exposure. There is one instant for
+/// each 3 ms begun, at least one.
 class CameraSchedule {
  public:
   CameraSchedule(const CameraTiming& timing, std::int64_t first_ms);
 
   /// True if a view is to be captured at this millisecond.
   [[nodiscard]] bool captures_at(std::int64_t now_ms) const;
-  /// Gives the view of a millisecond that captures; milliseconds rise by one.
+  /// Takes the view of a millisecond for which captures_at() is true; else throws
+  /// std::invalid_argument. The caller asks captures_at() for each millisecond: after one that was
+  /// left out the schedule stays where it is.
   void capture(std::int64_t now_ms, const CameraView& view);
   /// Completely exposed frames, in order, each handed out once.
   [[nodiscard]] std::optional<Frame> take_exposed();
-  /// Whether a frame may be published at the control tick now_ms.
+  /// Whether a frame may be published at the control tick now_ms: `latency` has passed since its
+  /// stamp.
   [[nodiscard]] bool is_due(const Frame& frame, std::int64_t now_ms) const;
 
  private:

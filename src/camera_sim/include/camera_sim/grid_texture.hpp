@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rectangle printed with square cells of one grey level each, and its mean over a pixel.
+// A rectangle printed with square cells of one grey level each. Its mean grey level over a pixel
+// can be asked for.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@ namespace camera_sim {
 
 class GridTexture {
  public:
-  // `greys` row by row, from the upper left cell.
+  // `greys` row by row, from the upper left cell; an incomplete last row is ignored.
   GridTexture(int columns, std::vector<unsigned char> greys);
 
   // Cell coordinates (u, v) run from (0, 0) at the upper left corner, u to the right, v down.
@@ -22,8 +23,8 @@ class GridTexture {
     return greys_[static_cast<std::size_t>(v * columns_ + u)];
   }
 
-  // Mean over a pixel with its centre at `cell`; `derivative` is that of the cell coordinates to
-  // the pixel's. Points outside count as the nearest cell.
+  // Mean over a pixel with its centre at `cell`; `derivative` is d cell / d pixel. Points outside
+  // count as the nearest cell.
   [[nodiscard]] unsigned char mean_over_pixel(const Eigen::Vector2d& cell,
                                               const Eigen::Matrix2d& derivative) const;
 

@@ -11,7 +11,8 @@
 
 namespace camera_sim {
 
-/// The camera on the hand. Exposure to light goes up and down,
+/// The camera on the hand. The brightness of the scene goes up and down with the time t, s, of the
+/// frame's stamp:
 ///   image = gain(t) scene + noise,  gain(t) = 1 + light_change sin(2 pi t / light_period + phase).
 struct HandCameraParams {
   PinholeCamera optics;
@@ -26,8 +27,8 @@ struct HandCameraParams {
   void validate() const;
 };
 
-/// Images of the hand camera: the scene, the hand and fingers that are fixed before the lens, light
-/// and noise.
+/// Images of the hand camera: the scene, the hand and the open fingers, which do not move in the
+/// image, light and noise.
 class HandCamera {
  public:
   /// Throws std::invalid_argument for a bad config or a robot without camera_optical_frame.
@@ -42,7 +43,7 @@ class HandCamera {
   CameraRenderer renderer_;
   ImageNoise noise_;
   double light_phase_;
-  // The hand, where it is in view: its grey levels times its coverage, and what shines through.
+  // The hand, where it is in view: its grey levels times its coverage, and 1 - coverage.
   cv::Rect hand_bounds_;
   cv::Mat hand_, transparency_;
 };

@@ -7,8 +7,8 @@
 
 namespace camera_sim {
 
-/// Gaussian noise of a camera, rounded to whole grey levels and clamped to 0..255. The noise of a
-/// frame depends on the seed and the frame's number only.
+/// Gaussian noise of a camera, rounded to whole grey levels. The noisy image is clamped to 0..255.
+/// The noise of a frame depends on the seed and the frame's number only.
 class ImageNoise {
  public:
   /// `sigma` in grey levels, >= 0; 0 is no noise. Throws std::invalid_argument otherwise.

@@ -18,7 +18,7 @@ struct LinkShape {
   Colour colour;
 };
 
-// Throws std::invalid_argument for what is no robot description.
+// Throws std::invalid_argument for text that is no robot description (URDF).
 [[nodiscard]] urdf::ModelInterfaceSharedPtr parse_robot(const std::string& urdf_xml);
 // Boxes, cylinders and spheres; throws std::invalid_argument for other shapes.
 [[nodiscard]] std::vector<LinkShape> shapes_of(const urdf::Link& link);

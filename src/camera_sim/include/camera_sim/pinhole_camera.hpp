@@ -21,8 +21,8 @@ struct PinholeCamera {
   double cy = 240.0;
   std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
 
-  /// Throws std::invalid_argument with name, value and bound; also for a distortion that folds
-  /// the image or moves its corners out of reach.
+  /// Throws std::invalid_argument with name, value and bound; also for a distortion whose
+  /// radial part does not rise up to the image's corners: it would fold the image over itself.
   void validate() const;
 
   [[nodiscard]] bool distorts() const;
@@ -32,7 +32,8 @@ struct PinholeCamera {
   [[nodiscard]] Eigen::Matrix2d distortion_jacobian(const Eigen::Vector2d& normalised) const;
   /// Pixel of normalised coordinates.
   [[nodiscard]] Eigen::Vector2d to_pixel(const Eigen::Vector2d& normalised) const;
-  /// Inverse of to_pixel(), for pixels in or near the image.
+  /// Inverse of to_pixel(), for pixels in or near the image. Farther out the result means nothing
+  /// when the lens distorts.
   [[nodiscard]] Eigen::Vector2d to_normalised(const Eigen::Vector2d& pixel) const;
 };
 

@@ -6,7 +6,8 @@
 
 namespace camera_sim {
 
-/// A solid cuboid: pose of its centre in the platform frame, edge lengths along its axes, m.
+/// A solid cuboid: pose of its centre in the platform frame (in the cart's frame for what the cart
+/// carries), edge lengths along its axes, m.
 struct Cuboid {
   Eigen::Isometry3d pose_in_platform = Eigen::Isometry3d::Identity();
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
@@ -17,11 +18,11 @@ struct Cuboid {
 /// Chassis of the cart, in the cart's frame; it stands below the default place of the box.
 [[nodiscard]] Cuboid cart_chassis();
 
-/// Open box on a post, fixed to the platform or to a cart. It opens toward platform -x; a tag is on
-/// the inside of its back wall, its face toward the opening. Platform frame: centre of the deck's
-/// surface, x forward, z up; a cart's frame is where the platform's is until the cart is pushed.
-/// Tag frame: origin at the tag's centre, x right, y up, z out of the printed face, as seen by a
-/// viewer in front. Lengths in metres.
+/// Open box on a post, fixed to the platform or to a cart. With yaw 0 it opens toward -x; a tag is
+/// on the inside of its back wall, its face toward the opening. Platform frame: centre of the
+/// deck's surface, x forward, z up; a cart's frame is where the platform's is until the cart is
+/// pushed. Tag frame: origin at the tag's centre, x right, y up, z out of the printed face, as seen
+/// by a viewer in front. Lengths in metres.
 struct TargetBox {
   Eigen::Vector3d tag_position_in_platform{0.89, 0.0, 1.30};
   double yaw = 0.0;        ///< rad, of box, tag and post about the vertical through the tag
@@ -31,15 +32,16 @@ struct TargetBox {
   double inner_depth = 0.20;  ///< along platform x
   double wall_thickness = 0.005;
   double post_width = 0.06;  ///< square column from the deck or the cart to the box
-  bool on_cart = false;      ///< on a cart on the floor, which then is the plane z = 0
+  bool on_cart = false;      ///< box and post are on a cart; the floor is the plane z = 0
 
   /// Throws std::invalid_argument with name, value and bound.
   void validate() const;
 
   [[nodiscard]] Eigen::Isometry3d tag_in_platform() const;
-  /// Moves and turns the box so that its tag, upright, is there.
+  /// Moves and turns the box so that its tag has this position and yaw. The box stays upright: a
+  /// tilt of the pose is not used.
   void place_tag(const Eigen::Isometry3d& tag_in_platform);
-  /// Centre of the hollow of the box, axes parallel to the platform's.
+  /// Frame at the centre of the box's hollow: the platform's axes turned by yaw about z.
   [[nodiscard]] Eigen::Isometry3d box_in_platform() const;
   /// Back, left, right, top, bottom.
   [[nodiscard]] std::vector<Cuboid> walls() const;

@@ -18,7 +18,8 @@ class ZBuffer {
   // The image is kOversampling times as fine as the camera's until finish().
   ZBuffer(const PinholeCamera& camera, const Colour& background);
 
-  // A triangle in the optical frame; left out if seen from behind or not wholly in front.
+  // A triangle in the optical frame; left out if seen from behind or not wholly in front of
+  // the camera.
   void draw(const Triangle& triangle, const Colour& colour);
   // BGR, averaged down to the camera's resolution.
   [[nodiscard]] cv::Mat finish() const;
