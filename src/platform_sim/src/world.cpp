@@ -30,7 +30,7 @@ constexpr double kSettlingTime = 2.0;  // s, until legs and contacts are at rest
 // robot sinks in by 1.4 mm; the damping is about critical for its share of the mass.
 constexpr double kFootStiffness = 1e5;  // N/m
 constexpr double kFootDamping = 3e3;    // N s/m
-// Softer, so that the light links of the arm do not bounce at 1 kHz.
+// Chosen by hand: softer, because the links of the arm are light.
 constexpr double kArmStiffness = 2e4;  // N/m
 constexpr double kArmDamping = 2e2;    // N s/m
 

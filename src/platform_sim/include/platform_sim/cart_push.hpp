@@ -24,7 +24,8 @@ class CartPush {
   explicit CartPush(const Params& params);
 
   /// Start 2..5 s, duration 2..3 s, distance 0.10..0.15 m, to either side within 20 degrees of the
-  /// robot's lateral axis: as far as the tag stays in view of a hand 0.45 m before it that waits.
+  /// world's y axis. The distances are chosen so that the tag stays in view of a hand that waits
+  /// 0.45 m in front of it.
   [[nodiscard]] static Params draw(std::uint64_t seed);
 
   [[nodiscard]] FrameState cart(double time) const;

@@ -10,11 +10,12 @@
 namespace platform_sim {
 
 /// Contact of a pair of links during one control period. Names are URDF links, except `body`
-/// (base_link and all that is fixed to it), `box` (its five walls), `post` and `platform`.
+/// (base_link and all that is fixed to it), `box` (its five walls), `post` or `cart`, and
+/// `platform` (the floor too).
 struct Contact {
   std::string link_a;  ///< link_a < link_b in alphabetical order
   std::string link_b;
-  double force = 0.0;  ///< largest over the 1 ms steps of the pair's summed normal forces, N
+  double force = 0.0;  ///< N; normal forces summed over the pair's points, largest 1 ms step
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< strongest point of that step, world, m
 };
 

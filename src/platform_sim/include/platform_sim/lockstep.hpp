@@ -4,10 +4,11 @@
 // The nodes form a chain. Each responds to the message before it with the same stamp:
 //   camera/image_raw -> tag_detections -> target/forecast -> execution/progress ->
 //   skill/trajectory -> execution/setpoint -> joint_command
-// joint_states calls for progress, set-point and command of its stamp; a progress that names a new
-// forecast calls for a skill trajectory. While a hand guides the arm, joint_states calls for
-// guide/wrench only. When the simulator stands still, the pending response with the oldest stamp is
-// the cause; among equal stamps, the one that comes first in the chain.
+// The rules of what is then pending: an image calls for detections, and detections call for a
+// forecast. joint_states calls for progress, set-point and command of its stamp; a progress that
+// names a new forecast calls for a skill trajectory. While a hand guides the arm, joint_states
+// calls for guide/wrench only. When the simulator stands still, the pending response with the
+// oldest stamp is the cause; among equal stamps, the one that comes first in the chain.
 #pragma once
 
 #include <array>
@@ -46,11 +47,13 @@ class Lockstep {
   void published_image(prf_core::Stamp exposure);
   void published_joint_states(prf_core::Stamp tick);
 
-  // What came back. False, and without effect, if it is not newer than what came before.
+  // What came back. It settles every pending response of its topic with the same or an older stamp.
+  // False, and without effect, if it is not newer than what came before on its topic.
   bool received(Response response, prf_core::Stamp stamp);
   bool received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp);
 
-  // Whether the simulator has all that it needs to advance from the last joint_states.
+  // Whether the simulator may advance: no progress, command or wrench is pending. The other
+  // responses are not waited for; they only serve first_silent().
   [[nodiscard]] bool is_complete() const;
 
   // The response that has been pending for longest; none when nothing is pending.

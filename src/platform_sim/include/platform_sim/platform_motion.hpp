@@ -10,14 +10,16 @@
 
 namespace platform_sim {
 
-/// Motion of the deck in world. World: the platform frame at rest. Each axis, in closed form:
+/// Motion of the deck in world. World: the platform frame at rest. Each axis moves as follows, in
+/// closed form:
 ///
 ///   command(t) = r(t) sum_i A_i sin(w_i (t + t0) + p_i),       r: raised cosine 0 -> 1 in 2 s
 ///   lag dq/dt + q = command,  q(0) = 0;                        q = command without a lag
 ///
 /// or q(t) = r(t) recording(t). The deck goes by (surge, sway, heave) and turns by
-/// Rz(yaw) Ry(pitch) Rx(roll) about a point below and behind its centre; positive pitch lowers the
-/// front. At t <= 0 it is at rest. t0 is 0 without a seed, else drawn from it.
+/// Rz(yaw) Ry(pitch) Rx(roll) about a point 0.16 m below and 0.1 m behind its centre; positive
+/// pitch lowers the front. At t <= 0 it is at rest. t0 is 0 without a seed, else drawn from it
+/// within 0..20 s.
 class PlatformMotion {
  public:
   /// Throws what find_profile() throws.
@@ -25,7 +27,7 @@ class PlatformMotion {
                           std::optional<std::uint64_t> seed = std::nullopt);
 
   [[nodiscard]] FrameState deck(double time) const;
-  /// The deck's robot does not stand: the deck carries its base.
+  /// Whether the deck carries the robot's base, which then does not stand on its legs.
   [[nodiscard]] bool carries_base() const { return profile_.carries_base; }
 
   struct AxisState {

@@ -30,9 +30,10 @@ struct AxisProfile {
 /// How a deck moves: sines per axis, or a recording with columns named as axes. A robot stands on
 /// its legs unless the deck carries its base.
 ///
-/// Bounds, those of a treadmill for rehabilitation on a moving base (M-Gait: 10 deg, 50 mm) with
-/// room: 0.1 m, 0.5 m/s, 2.5 m/s2; 0.18 rad, 0.7 rad/s, 3 rad/s2. If the base is carried: 1 m,
-/// 10 m/s, 150 m/s2; 0.5 rad, 5 rad/s, 50 rad/s2. Of sines the amplitudes count together.
+/// Bounds, chosen by hand with room above 10 deg and 50 mm, to which the published commands of the
+/// treadmill are scaled: 0.1 m, 0.5 m/s, 2.5 m/s2; 0.18 rad, 0.7 rad/s, 3 rad/s2. If the base is
+/// carried: 1 m, 10 m/s, 150 m/s2; 0.5 rad, 5 rad/s, 50 rad/s2. For a sum of sines the sum of the
+/// amplitudes is checked.
 struct PlatformProfile {
   std::array<AxisProfile, 6> axes;
   std::optional<RecordedMotion> recording;

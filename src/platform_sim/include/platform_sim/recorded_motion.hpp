@@ -11,8 +11,8 @@ namespace platform_sim {
 /// `time,<name>,...` and rows of numbers; time in s, rising, at least 4 rows over at least 1 s.
 /// Cubic splines go through the values, so position, velocity and acceleration are continuous.
 ///
-/// A recording is played to its end, back to its start and so on; it begins, turns and ends gently:
-/// the speed of playing goes from 0 to +-1 in 1 s as a raised cosine.
+/// A recording is played to its end, back to its start and so on without end. At the beginning and
+/// around each turn the speed of playing changes between 0 and +-1 in 1 s as a raised cosine.
 class RecordedMotion {
  public:
   /// Throws std::invalid_argument with file, line and what is wrong.
@@ -28,7 +28,8 @@ class RecordedMotion {
   /// At `time` s after playing began; before that the first row at rest.
   [[nodiscard]] Sample at(double time) const;
 
-  /// Per column, played at full speed: largest magnitudes, and the least value.
+  /// Per column, played at full speed: largest magnitudes of value, velocity and acceleration, and
+  /// the least (signed) value.
   struct Extremes {
     Eigen::VectorXd value, velocity, acceleration, least;
   };

@@ -8,14 +8,15 @@
 
 namespace platform_sim {
 
-/// What no two trials have in common, drawn evenly from +- these at scale 1.
+/// What differs from trial to trial. At scale 1 each is drawn uniformly from +- these values, which
+/// are chosen by hand.
 struct VariationSpread {
   double box_position = 0.02;    ///< m, per axis
   double box_yaw = 0.05;         ///< rad, about the vertical through the tag
   double robot_position = 0.02;  ///< m, x and y of base_link at the start
   double robot_yaw = 0.05;       ///< rad
-  double friction = 0.15;        ///< part of the coefficient
-  double camera_noise = 0.25;    ///< part of the standard deviation
+  double friction = 0.15;        ///< share of the coefficient
+  double camera_noise = 0.25;    ///< share of the standard deviation
 };
 
 /// One draw.
@@ -27,7 +28,8 @@ struct Variation {
   double friction_factor = 1.0;
   double camera_noise_factor = 1.0;
 
-  /// The same for the same seed. `scale` from 0, nothing, to 1; else std::invalid_argument.
+  /// The same for the same seed. `scale` is from 0 (no variation) to 1, else
+  /// std::invalid_argument.
   [[nodiscard]] static Variation draw(std::uint64_t seed, double scale,
                                       const VariationSpread& spread = {});
 

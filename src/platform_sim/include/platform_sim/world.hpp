@@ -22,13 +22,15 @@ struct JointStates {
 
 /// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform before an
 /// open box, which the platform or a cart carries. Deterministic: two worlds built alike and
-/// stepped alike are bitwise equal. At time 0 the robot has settled and the platform is still.
+/// stepped alike are bitwise equal. At time 0 the robot has settled for 2 s
+/// on the platform, which is still at rest.
 class World {
  public:
   /// Length of a physics step, s.
   static constexpr double kTimeStep = 0.001;
 
-  /// Throws std::invalid_argument for a robot description that cannot be simulated or a bad config.
+  /// Throws std::invalid_argument for a robot description that cannot be simulated or for
+  /// parameters that WorldParams::validate() refuses.
   World(const std::string& urdf_xml, const WorldParams& config);
   ~World();
   World(World&&) noexcept;
@@ -54,17 +56,20 @@ class World {
   /// Contacts since the last call, one per pair of links, in alphabetical order.
   [[nodiscard]] std::vector<Contact> take_contacts();
   /// By the criterion of prf_msgs/interfaces.yaml, as the judge has it: the body is low, tilted or
-  /// touches the platform. Never if the base is carried.
+  /// touches the platform. Always false if the base is carried.
   [[nodiscard]] bool fallen() const;
 
-  /// Servo mode: queues a set-point of the arm, see ArmServo; held until the next one. The velocity
-  /// is a feed-forward that lapses 20 ms later, so that an arm without commands comes to rest.
+  /// ArmMode::kServo only, else std::invalid_argument. Queues a set-point of the arm: it waits for
+  /// arm_latency at least, one is taken every 10 ms, and it is held until the next one is taken.
+  /// The velocity is a feed-forward that lapses 20 ms later, so that an arm without commands comes
+  /// to rest.
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
-  /// Compliant mode: force, N, at the origin of j2s7s300_end_effector and torque, Nm, on the hand,
-  /// in world axes, held until the next call.
+  /// ArmMode::kCompliant only, else std::invalid_argument. Force, N, at the origin of
+  /// j2s7s300_end_effector and torque, Nm, on the hand, in world axes, held until the next call.
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
-  /// A disturbance: force, N, in world axes, at the origin of a link during the next step only.
-  /// Throws std::invalid_argument if there is no such link or the force is not finite.
+  /// A disturbance: force, N, in world axes, at the origin of a link during the next step only;
+  /// several before one step add up. Throws std::invalid_argument if there is no such link or the
+  /// force is not finite.
   void push(const std::string& link, const Eigen::Vector3d& force);
 
  private:

@@ -21,10 +21,11 @@ struct WorldParams {
   /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
   /// pushes aside (CartPush), and motion must be none.
   std::string scenario = "treadmill";
-  std::string motion = "none";   ///< preset or file, see find_profile()
-  std::string body_motion;       ///< CSV file: carries base_link over the deck; empty: legs do
-  std::string gait = "stand";    ///< one of gait_names()
-  std::uint64_t seed = 0;        ///< phase of the platform's motion
+  std::string motion = "none";  ///< preset or file, see find_profile()
+  std::string body_motion;      ///< CSV file: carries base_link over the deck; empty: legs do
+  std::string gait = "stand";   ///< one of gait_names()
+  std::uint64_t seed =
+      0;  ///< of the platform's phase, the cart's push, leg sensors and placing errors
   double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
   double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
   double base_start_y = 0.0;     ///< m
@@ -32,7 +33,7 @@ struct WorldParams {
   ArmMode arm_mode = ArmMode::kServo;
   ArmVector arm_start = ArmVector::Zero();  ///< rad
   double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
-  double arm_latency = 0.02;                ///< s, from a command to the arm's servos
+  double arm_latency = 0.02;  ///< s, from a command to the arm's servos; chosen by hand
   camera_sim::TargetBox target;
 
   [[nodiscard]] static const std::vector<std::string>& scenario_names();

@@ -10,13 +10,13 @@ namespace platform_sim {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
-// As the driver of the Jaco2 (kinova-ros) does it: its queue holds 2000 points, one is taken every
-// 10 ms, and the arm stops when two are missing.
+// As in the driver of the Jaco2 (kinova-ros) the queue holds 2000 points, and one is taken every
+// 10 ms. The lifetime, two such periods, is chosen by hand.
 constexpr double kVelocityLifetime = 0.02;  // s
 constexpr long kTakePeriodMs = 10;
 constexpr std::size_t kLongestQueue = 2000;
 constexpr double kTimeTolerance = 1e-6;  // s, rounding of sums of milliseconds
-// Assumed, of a guided joint: a hand moves the arm easily, and it stops when it is let go.
+// Chosen by hand for a guided joint: a hand moves the arm easily, and it stops when it is let go.
 constexpr double kDryFriction = 0.1;      // Nm
 constexpr double kViscousFriction = 1.0;  // Nm s/rad
 
