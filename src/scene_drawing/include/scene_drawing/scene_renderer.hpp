@@ -12,15 +12,17 @@
 
 namespace scene_drawing {
 
-/// What stands where at one instant. Poses in world.
+/// Where everything stands at one instant. Poses are in world.
 struct SceneState {
   Eigen::Isometry3d platform = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d carrier = Eigen::Isometry3d::Identity();  ///< of the box: platform or cart
-  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();     ///< root link of the robot
-  std::map<std::string, double> joints;                       ///< rad, by name
+  Eigen::Isometry3d carrier =
+      Eigen::Isometry3d::Identity();  ///< what carries the box: platform or cart
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< root link of the robot
+  std::map<std::string, double> joints;                    ///< rad, by name
 };
 
-/// Optical frame of a camera at `eye` that looks at `target`, upright; not straight up or down.
+/// Optical frame of a camera at `eye` that looks at `target`, upright. `target` must
+/// not be straight above or below `eye`, which is not checked: the result would be no rotation.
 [[nodiscard]] Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
 /// Pictures of the whole scene for reports: the robot's visual shapes (boxes, cylinders, spheres),
@@ -33,7 +35,7 @@ class SceneRenderer {
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  /// BGR image. Throws std::invalid_argument if a joint of the robot has no value.
+  /// 8 bit BGR image. Throws std::invalid_argument if a moving joint of the robot has no value.
   [[nodiscard]] cv::Mat render(const SceneState& state, const camera_sim::PinholeCamera& camera,
                                const Eigen::Isometry3d& camera_in_world) const;
 
