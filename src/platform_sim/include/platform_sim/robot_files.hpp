@@ -7,7 +7,8 @@
 
 namespace platform_sim {
 
-/// Robot description of the package jaco_v60_description, looked for in the sourced workspaces.
+/// Robot description of the package jaco_v60_description, looked for in the sourced workspaces
+/// (CMAKE_PREFIX_PATH).
 /// Throws std::runtime_error if there is none.
 [[nodiscard]] std::string installed_robot_description();
 

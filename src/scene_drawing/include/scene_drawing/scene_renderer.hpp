@@ -18,7 +18,7 @@ struct SceneState {
   Eigen::Isometry3d carrier =
       Eigen::Isometry3d::Identity();  ///< what carries the box: platform or cart
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();  ///< root link of the robot
-  std::map<std::string, double> joints;                    ///< rad, by name
+  std::map<std::string, double> joints;  ///< rad, by name; other names are ignored
 };
 
 /// Optical frame of a camera at `eye` that looks at `target`, upright. `target` must

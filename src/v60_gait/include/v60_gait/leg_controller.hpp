@@ -10,9 +10,9 @@ using LegVector = Eigen::Matrix<double, 12, 1>;
 
 /// All inputs of a leg controller: encoders, inertial unit and the operator's joystick.
 struct LegObservation {
-  double time = 0.0;                                             ///< s
-  LegVector positions = LegVector::Zero();                       ///< rad
-  LegVector velocities = LegVector::Zero();                      ///< rad/s
+  double time = 0.0;                         ///< s; below 0 while the robot settles
+  LegVector positions = LegVector::Zero();   ///< rad
+  LegVector velocities = LegVector::Zero();  ///< rad/s
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< base_link in world
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    ///< rad/s, in base_link
   Eigen::Vector3d joystick = Eigen::Vector3d::Zero();  ///< desired velocity over the deck: m/s
