@@ -27,8 +27,8 @@ struct HandCameraParams {
   void validate() const;
 };
 
-/// Images of the hand camera: the scene, the hand and the open fingers, which do not move in the
-/// image, light and noise.
+/// Images of the hand camera: the scene, the hand and the fingers, which are fixed links of the
+/// robot description and do not move in the image, light and noise.
 class HandCamera {
  public:
   /// Throws std::invalid_argument for a bad config or a robot without camera_optical_frame.
