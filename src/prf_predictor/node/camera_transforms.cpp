@@ -3,67 +3,64 @@
 
 #include <tf2/exceptions.h>
 #include <tf2_eigen/tf2_eigen.h>
+#include <prf_ros/conversions.hpp>
 
 #include <utility>
 
 namespace prf_predictor {
-namespace {
 
-const ros::Duration kNewRun(1.0);
-constexpr char kAuthority[] = "tf";
+using prf_core::Stamp;
+using prf_core::StampOrder;
+using prf_ros::to_core;
 
-// Frames of the markers themselves come from the detector, they are no input here.
-bool is_marker(const std::string& frame) { return frame.rfind("tag_", 0) == 0; }
-
-}  // namespace
-
-CameraTransforms::CameraTransforms(std::string planning_frame, ros::Duration patience)
-    : planning_frame_(std::move(planning_frame)), patience_(patience) {}
+CameraTransforms::CameraTransforms(std::string planning_frame, std::string ignored_prefix,
+                                   prf_core::Duration max_wait)
+    : planning_frame_(std::move(planning_frame)),
+      ignored_prefix_(std::move(ignored_prefix)),
+      max_wait_(max_wait) {}
 
 void CameraTransforms::add(const tf2_msgs::TFMessage& message, bool is_static) {
   for (const auto& transform : message.transforms) {
-    if (is_marker(transform.child_frame_id)) continue;
-    if (!is_static) {
-      if (transform.header.stamp + kNewRun < newest_) forget();
-      newest_ = std::max(newest_, transform.header.stamp);
+    if (transform.child_frame_id.rfind(ignored_prefix_, 0) == 0) continue;
+    if (!is_static &&
+        clock_.observe(to_core(transform.header.stamp)) == StampOrder::kBackwardJump) {
+      buffer_.clear();
     }
-    buffer_.setTransform(transform, kAuthority, is_static);
+    buffer_.setTransform(transform, "tf", is_static);
     has_static_ = has_static_ || is_static;
   }
 }
 
-void CameraTransforms::begin_run(const ros::Time& stamp) {
-  if (stamp + kNewRun < newest_) forget();
-}
-
-void CameraTransforms::forget() {
+void CameraTransforms::begin_run(Stamp stamp) {
+  if (clock_.classify(stamp) != StampOrder::kBackwardJump) return;
   buffer_.clear();
-  newest_ = ros::Time();
+  clock_.restart();
 }
 
-CameraTransforms::Lookup CameraTransforms::lookup(const std::string& camera_frame,
-                                                  const ros::Time& stamp) const {
-  Lookup result;
-  if (stamp.isZero()) {
+CameraTransforms::LookupResult CameraTransforms::lookup(const std::string& camera_frame,
+                                                        Stamp stamp) const {
+  LookupResult result;
+  if (stamp == Stamp{0}) {
     result.readiness = Readiness::kNever;
     result.reason = "stamp 0 means the latest time to tf";
     return result;
   }
-  bool is_decided = newest_ > stamp + patience_;
+  const Stamp newest = clock_.newest().value_or(Stamp{0});
+  bool is_decided = newest > stamp + max_wait_;
   try {
     const ros::Time latest =
         buffer_.lookupTransform(planning_frame_, camera_frame, ros::Time()).header.stamp;
     const bool nothing_moves = latest.isZero();
-    is_decided = is_decided || nothing_moves || latest > stamp;
+    is_decided = is_decided || nothing_moves || to_core(latest) > stamp;
   } catch (const tf2::TransformException& error) {
     result.reason = error.what();
-    const bool tree_is_known = has_static_ && newest_ > stamp;
+    const bool tree_is_known = has_static_ && newest > stamp;
     is_decided = is_decided || tree_is_known;
   }
   if (!is_decided) return result;
   try {
-    result.camera_in_planning =
-        tf2::transformToEigen(buffer_.lookupTransform(planning_frame_, camera_frame, stamp));
+    result.camera_in_planning = tf2::transformToEigen(
+        buffer_.lookupTransform(planning_frame_, camera_frame, prf_ros::to_ros_time(stamp)));
     result.readiness = Readiness::kReady;
   } catch (const tf2::TransformException& error) {
     result.readiness = Readiness::kNever;

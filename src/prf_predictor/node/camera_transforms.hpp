@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the camera was when an image was taken, as soon as that is certain.
+// The pose of the camera in the planning frame at the stamp of an image, as soon as it is final.
 //
-// Fed with /tf and /tf_static from the node's own queue. An answer depends on the order within
-// each topic alone: a stamp is ready once every moving frame between camera and planning frame has
-// a sample AFTER it, so that the same two neighbours are interpolated whatever came when. (At a
-// sample's own stamp tf2 copies the sample while it is the newest and interpolates afterwards,
-// which differs in the last bit.)
+// A stamp is ready when every moving frame between camera and planning frame has a sample later
+// than the stamp. The same two neighbours are then interpolated whatever order the messages of
+// different topics came in. (tf2 copies a sample at exactly its stamp while it is the newest one
+// and interpolates afterwards, which differs in the last bit.)
 #pragma once
 
-#include <ros/time.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
+#include <prf_core/clock_monitor.hpp>
 #include <string>
 
 namespace prf_predictor {
@@ -21,33 +20,34 @@ class CameraTransforms {
  public:
   enum class Readiness {
     kReady,
-    kWait,   // more tf may still bring it
-    kNever,  // no tf to come can bring it, or tf is more than `patience` past the stamp
+    kWait,   // later tf may bring it
+    kNever,  // no later tf can bring it, or tf is more than `max_wait` past the stamp
   };
 
-  struct Lookup {
+  struct LookupResult {
     Readiness readiness = Readiness::kWait;
     Eigen::Isometry3d camera_in_planning = Eigen::Isometry3d::Identity();
     std::string reason;  // when not ready
   };
 
-  CameraTransforms(std::string planning_frame, ros::Duration patience);
+  // Frames whose names begin with `ignored_prefix` are not stored: the detector sends them.
+  CameraTransforms(std::string planning_frame, std::string ignored_prefix,
+                   prf_core::Duration max_wait);
 
-  // tf whose stamps go back by more than a second starts a new run: the old tf is forgotten.
+  // A backward jump of tf's stamps begins a new run: earlier tf is dropped.
   void add(const tf2_msgs::TFMessage& message, bool is_static);
 
-  // The images started a new run at this stamp: tf of an old run is forgotten.
-  void begin_run(const ros::Time& stamp);
+  // The images began a new run at this stamp: tf of the old run is dropped.
+  void begin_run(prf_core::Stamp stamp);
 
-  [[nodiscard]] Lookup lookup(const std::string& camera_frame, const ros::Time& stamp) const;
+  [[nodiscard]] LookupResult lookup(const std::string& camera_frame, prf_core::Stamp stamp) const;
 
  private:
-  void forget();
-
   std::string planning_frame_;
-  ros::Duration patience_;
+  std::string ignored_prefix_;
+  prf_core::Duration max_wait_;
   tf2::BufferCore buffer_;
-  ros::Time newest_;  // of the moving frames
+  prf_core::ClockMonitor clock_;  // of the moving frames
   bool has_static_ = false;
 };
 

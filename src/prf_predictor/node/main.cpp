@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <prf_msgs/TagDetectionArray.h>
 #include <prf_msgs/TargetForecast.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
+#include <prf_ros/conversions.hpp>
+#include <prf_ros/private_parameters.hpp>
 
 #include <deque>
-#include <map>
-#include <memory>
-#include <string>
+#include <prf_core/clock_monitor.hpp>
 
 #include "camera_transforms.hpp"
 #include "conversions.hpp"
-#include "leap_guard.hpp"
+#include "health.hpp"
 #include "params.hpp"
 
 namespace prf_predictor {
 namespace {
 
-const ros::Duration kNewRun(1.0);
+using prf_core::from_seconds;
+using prf_core::StampOrder;
+using prf_ros::to_core;
+using Readiness = CameraTransforms::Readiness;
+using ArrayPtr = prf_msgs::TagDetectionArrayConstPtr;
+
+constexpr Duration kFarAhead = std::chrono::seconds(1);
 
 class TargetPredictorNode {
  public:
-  TargetPredictorNode(ros::NodeHandle node, const NodeParams& params)
+  TargetPredictorNode(ros::NodeHandle node, const TargetPredictorParams& params)
       : params_(params),
-        transforms_(params.planning_frame, ros::Duration(params.tf_wait)),
+        transforms_(params.planning_frame, params.tag_frame_prefix, from_seconds(params.tf_wait)),
         tracker_(params.tracker, params.predictor) {
     const auto hints = ros::TransportHints().tcpNoDelay();
-    updater_.setHardwareID("none");
-    updater_.add("target", this, &TargetPredictorNode::diagnose);
     using Tf = tf2_msgs::TFMessageConstPtr;
     subscribers_ = {
         node.subscribe<tf2_msgs::TFMessage>(
@@ -36,136 +39,105 @@ class TargetPredictorNode {
         node.subscribe<tf2_msgs::TFMessage>(
             "/tf", 1000, [this](const Tf& tf) { on_tf(*tf, false); }, nullptr, hints),
         node.subscribe("tag_detections", 100, &TargetPredictorNode::on_detections, this, hints)};
-    // After subscribing: who sees this publisher may start, nothing will be missed.
+    // After subscribing: a node that waits for this publisher may start, nothing is missed.
     publisher_ = node.advertise<prf_msgs::TargetForecast>("target/forecast", 100);
   }
 
  private:
   void on_tf(const tf2_msgs::TFMessage& message, bool is_static) {
     transforms_.add(message, is_static);
-    answer_what_is_ready();
+    process_ready_images();
   }
 
   void on_detections(const ros::MessageEvent<const prf_msgs::TagDetectionArray>& event) {
-    watch_publisher(event.getPublisherName());
-    const auto array = event.getConstMessage();
-    const auto [taken, refused] = guard_.take(array->header.stamp, array);
-    if (refused) drop("stamp far in the future", "");
-    for (const auto& next : taken) enqueue(next);
-    answer_what_is_ready();
-  }
-
-  void enqueue(const prf_msgs::TagDetectionArrayConstPtr& array) {
-    const ros::Time stamp = array->header.stamp;
-    if (stamp + kNewRun < newest_) {
-      ROS_WARN("detection stamps went back from %.3f to %.3f s: new run", newest_.toSec(),
-               stamp.toSec());
-      for (; !waiting_.empty(); waiting_.pop_front()) answer(*waiting_.front(), {});
-      transforms_.begin_run(stamp);
-      updater_.force_update();
+    health_.report_publisher(event.getPublisherName());
+    const ArrayPtr array = event.getConstMessage();
+    const auto result = hold_.push(to_core(array->header.stamp), array);
+    if (result.refuted) health_.drop("stamp far in the future");
+    for (const auto& next : result.passed) {
+      if (next.order == StampOrder::kBackwardJump) begin_run(next.stamp);
+      newest_ = next.stamp;
+      waiting_.push_back(next.message);
     }
-    newest_ = stamp;
-    waiting_.push_back(array);
+    process_ready_images();
   }
 
-  void watch_publisher(const std::string& name) {
-    if (!source_.empty() && name != source_) {
-      ++counts_["changes of publisher"];
-      ROS_WARN_THROTTLE(1.0, "tag_detections came from %s and now from %s: two publishers?",
-                        source_.c_str(), name.c_str());
-    }
-    source_ = name;
+  void begin_run(Stamp stamp) {
+    ROS_WARN("detection stamps went back from %.3f to %.3f s: new run",
+             prf_core::to_seconds(newest_), prf_core::to_seconds(stamp));
+    for (; !waiting_.empty(); waiting_.pop_front()) process(*waiting_.front(), {});
+    transforms_.begin_run(stamp);
+    health_.publish_now();
   }
 
-  // Strictly in order: the first one waits for its tf, the others for the first.
-  void answer_what_is_ready() {
+  // Strictly in order: the first image waits for its tf, the others for the first.
+  void process_ready_images() {
     while (!waiting_.empty()) {
-      const auto array = waiting_.front();
-      const auto found = camera_at(*array);
-      const bool is_overdue = newest_ > array->header.stamp + ros::Duration(params_.tf_wait);
-      if (found.readiness == CameraTransforms::Readiness::kWait && !is_overdue) return;
+      const ArrayPtr array = waiting_.front();
+      const auto camera = camera_at(*array);
+      const bool is_overdue =
+          newest_ > to_core(array->header.stamp) + from_seconds(params_.tf_wait);
+      if (camera.readiness == Readiness::kWait && !is_overdue) break;
       waiting_.pop_front();
-      answer(*array, found);
+      process(*array, camera);
     }
-    updater_.update();
+    health_.report_waiting(waiting_.size());
+    if (waiting_.empty()) health_.publish();
   }
 
-  CameraTransforms::Lookup camera_at(const prf_msgs::TagDetectionArray& array) const {
+  CameraTransforms::LookupResult camera_at(const prf_msgs::TagDetectionArray& array) const {
     if (array.detections.empty()) {
-      CameraTransforms::Lookup not_needed;
-      not_needed.readiness = CameraTransforms::Readiness::kReady;
+      CameraTransforms::LookupResult not_needed;
+      not_needed.readiness = Readiness::kReady;
       return not_needed;
     }
-    return transforms_.lookup(array.header.frame_id, array.header.stamp);
+    return transforms_.lookup(array.header.frame_id, to_core(array.header.stamp));
   }
 
-  void answer(const prf_msgs::TagDetectionArray& array, const CameraTransforms::Lookup& camera) {
-    std::vector<TagMeasurement> sights;
-    if (camera.readiness == CameraTransforms::Readiness::kReady) {
-      sights = sights_of(array, camera.camera_in_planning);
+  void process(const prf_msgs::TagDetectionArray& array,
+               const CameraTransforms::LookupResult& camera) {
+    std::vector<TagMeasurement> measurements;
+    if (camera.readiness == Readiness::kReady) {
+      measurements = measurements_of(array, camera.camera_in_planning);
     } else {
-      drop("without tf", camera.reason);
+      health_.drop("without tf", camera.reason);
     }
-    const auto [arrival, state] =
-        tracker_.process(static_cast<Nanoseconds>(array.header.stamp.toNSec()), sights);
-    publisher_.publish(to_message(state, tracker_.forecast(state, params_.horizons), array.header,
+    const auto result = tracker_.process(to_core(array.header.stamp), measurements);
+    publisher_.publish(to_message(result.state, tracker_.forecast(result.state, params_.horizons),
                                   params_.planning_frame));
-    status_ = state.status;
-    ++counts_["images"];
-    if (state.measured) ++counts_["measurements accepted"];
-    if (arrival == Arrival::kDuplicate) drop("duplicate stamp", "");
-    if (arrival == Arrival::kTooOld) drop("older than all history", "");
-    if (arrival == Arrival::kReplayed) ++counts_["images replayed out of order"];
-    if (state.gated) drop("outside the gate", "NIS " + std::to_string(state.nis));
-    if (state.orientation_gated) drop("orientation outside the gate", "");
-    if (state.reacquired) ++counts_["targets re-acquired"];
-    if (state.reinitialised) drop("belief not finite", "filter starts anew");
+    health_.report(result);
   }
 
-  std::vector<TagMeasurement> sights_of(const prf_msgs::TagDetectionArray& array,
-                                        const Eigen::Isometry3d& camera_in_planning) {
-    std::vector<TagMeasurement> sights;
+  std::vector<TagMeasurement> measurements_of(const prf_msgs::TagDetectionArray& array,
+                                              const Eigen::Isometry3d& camera_in_planning) {
+    std::vector<TagMeasurement> measurements;
     for (const auto& detection : array.detections) {
       if (detection.id != params_.tag_id) continue;
       const auto checked = to_measurement(detection, params_.defaults);
-      if (checked.status == MeasurementStatus::kCovarianceReplaced) ++counts_["default covariance"];
-      if (checked.status == MeasurementStatus::kNotFinite) drop("not finite", "");
-      if (checked.status == MeasurementStatus::kNoOrientation) drop("quaternion not unit", "");
+      if (checked.status == MeasurementStatus::kCovarianceReplaced) {
+        health_.count("default covariance");
+      }
+      if (checked.status == MeasurementStatus::kNotFinite) health_.drop("not finite");
+      if (checked.status == MeasurementStatus::kNoOrientation) health_.drop("quaternion not unit");
       if (!checked.measurement) continue;
-      sights.push_back(camera_in_planning * *checked.measurement);
-      sights.back().position_covariance *= params_.measurement_scale;
+      measurements.push_back(camera_in_planning * *checked.measurement);
+      measurements.back().position_covariance *= params_.measurement_scale;
     }
-    if (sights.size() > 1) drop("several tags of the target's id", "the nearest is used");
-    return sights;
+    if (measurements.size() > 1) {
+      health_.drop("several tags of the target's id", "the nearest is used");
+    }
+    return measurements;
   }
 
-  void drop(const std::string& reason, const std::string& detail) {
-    ++counts_["dropped: " + reason];
-    ROS_WARN_THROTTLE(1.0, "measurement dropped, %s %s", reason.c_str(), detail.c_str());
-  }
-
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    static constexpr const char* kNames[] = {"no target", "tracking", "coasting", "lost"};
-    const bool is_good = status_ == TrackStatus::kTracking;
-    status.summary(
-        is_good ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
-        kNames[static_cast<int>(status_)]);
-    status.add("waiting for tf", waiting_.size());
-    for (const auto& [name, count] : counts_) status.add(name, count);
-  }
-
-  NodeParams params_;
+  TargetPredictorParams params_;
   CameraTransforms transforms_;
   TargetTracker tracker_;
-  LeapGuard<prf_msgs::TagDetectionArrayConstPtr> guard_;
-  std::string source_;  // node that sent the latest detections
-  std::deque<prf_msgs::TagDetectionArrayConstPtr> waiting_;
-  ros::Time newest_;
-  TrackStatus status_ = TrackStatus::kNoTarget;
-  std::map<std::string, std::size_t> counts_;
+  prf_core::FarAheadHold<ArrayPtr> hold_{kFarAhead};
+  std::deque<ArrayPtr> waiting_;  // for tf
+  Stamp newest_{0};               // of the images
+  Health health_;
   ros::Publisher publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  diagnostic_updater::Updater updater_;
 };
 
 }  // namespace
@@ -174,8 +146,8 @@ class TargetPredictorNode {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "target_predictor");
   return prf_ros::run([] {
-    prf_predictor::TargetPredictorNode node(ros::NodeHandle(),
-                                            prf_predictor::load(ros::NodeHandle("~")));
+    using namespace prf_predictor;
+    TargetPredictorNode node(ros::NodeHandle(), load_params(ros::NodeHandle("~")));
     ros::spin();
   });
 }

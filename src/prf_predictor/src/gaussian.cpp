@@ -62,18 +62,4 @@ StateMatrix square_root(const StateMatrix& covariance) {
   return eigen.eigenvectors() * roots.asDiagonal();
 }
 
-double chi_square_quantile_3(double p) {
-  // F(x) = erf(sqrt(x / 2)) - sqrt(2 x / pi) exp(-x / 2)
-  const auto cdf = [](double x) {
-    return std::erf(std::sqrt(x / 2)) - std::sqrt(2 * x / M_PI) * std::exp(-x / 2);
-  };
-  double low = 0.0;
-  double high = 100.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (cdf(middle) < p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace prf_predictor

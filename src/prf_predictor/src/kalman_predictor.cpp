@@ -20,7 +20,7 @@ KalmanPredictor::KalmanPredictor(std::shared_ptr<const MotionModel> model,
                                  const std::optional<SigmaPointParams>& sigma_points)
     : model_(std::move(model)), sigma_points_(sigma_points) {
   require(model_ != nullptr, "model", "null", "given");
-  if (sigma_points_) validate(*sigma_points_);
+  if (sigma_points_) sigma_points_->validate();
 }
 
 std::unique_ptr<TargetPredictor> KalmanPredictor::clone() const {

@@ -39,13 +39,13 @@ double VelocityDecay::prior_variance() const {
   return std::min(1.0, 0.5 * spectral_density * time_constant);
 }
 
-void validate(const VelocityDecay& decay) {
-  require(decay.spectral_density > 0 && std::isfinite(decay.spectral_density),
-          "acceleration_density", decay.spectral_density, "finite and > 0");
-  require(decay.time_constant > 0, "velocity_time_constant", decay.time_constant, "> 0 s");
+void VelocityDecay::validate() const {
+  require(spectral_density > 0 && std::isfinite(spectral_density), "acceleration_density",
+          spectral_density, "finite and > 0");
+  require(time_constant > 0, "velocity_time_constant", time_constant, "> 0 s");
 }
 
-DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) { validate(decay); }
+DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) { decay.validate(); }
 
 Points DecayingVelocity::advance(const Points& states, double dt) const {
   Points next(6, states.cols());

@@ -41,15 +41,21 @@ OscillationNoise oscillation_noise(const Values& values) {
           values.at("frequency_density")};
 }
 
+std::vector<std::string> periodic_parameters() {
+  std::vector<std::string> names;
+  for (const auto& [name, member] : PeriodicParams::members()) names.push_back(name);
+  return names;
+}
+
 PeriodicParams periodic_params(const Values& values) {
-  return {values.at("slowest"), values.at("fastest"), values.at("step_slowest"),
-          values.at("step_fastest"), values.at("memory")};
+  PeriodicParams params;
+  for (const auto& [name, member] : PeriodicParams::members()) params.*member = values.at(name);
+  return params;
 }
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> kEntries{
-      {"periodic",
-       {"slowest", "fastest", "step_slowest", "step_fastest", "memory"},
+      {"periodic", periodic_parameters(),
        [](const Values& values) {
          return std::make_unique<PeriodicPredictor>(periodic_params(values));
        }},

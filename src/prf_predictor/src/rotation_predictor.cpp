@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <prf_core/se3.hpp>
 
 namespace prf_predictor {
 namespace {
@@ -22,21 +23,8 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
-  const double sign = rotation.w() < 0 ? -1.0 : 1.0;
-  const double half_sine = rotation.vec().norm();
-  if (half_sine < 1e-12) return 2.0 * sign * rotation.vec();
-  return 2.0 * sign * std::atan2(half_sine, sign * rotation.w()) / half_sine * rotation.vec();
-}
-
-Eigen::Quaterniond rotation_of(const Eigen::Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
 bool is_finite(const OrientationForecast& forecast) {
-  return forecast.orientation.coeffs().allFinite() && forecast.rate.allFinite() &&
+  return forecast.orientation.coeffs().allFinite() && forecast.angular_velocity.allFinite() &&
          forecast.covariance.allFinite();
 }
 
@@ -54,21 +42,22 @@ void RotationPredictor::advance(double dt) { vectors_->advance(dt); }
 
 void RotationPredictor::correct(const Eigen::Quaterniond& orientation,
                                 const Eigen::Matrix3d& covariance) {
-  const Eigen::Vector3d seen = rotation_vector((orientation * reference_.conjugate()).normalized());
-  if (seen.norm() > kFarthest) {
+  const Eigen::Vector3d measured =
+      prf_core::log_so3((orientation * reference_.conjugate()).normalized());
+  if (measured.norm() > kFarthest) {
     reference_ = orientation.normalized();
     vectors_->begin(Eigen::Vector3d::Zero(), covariance);
     return;
   }
-  const Eigen::Matrix3d inverse = left_jacobian(seen).inverse();
-  vectors_->correct(seen, inverse * covariance * inverse.transpose());
+  const Eigen::Matrix3d inverse = left_jacobian(measured).inverse();
+  vectors_->correct(measured, inverse * covariance * inverse.transpose());
 }
 
 OrientationForecast RotationPredictor::forecast(double horizon) const {
   const PointForecast vector = vectors_->forecast(horizon);
   const Eigen::Matrix3d J = left_jacobian(vector.position);
-  return {(rotation_of(vector.position) * reference_).normalized(), J * vector.velocity,
-          J * vector.covariance.topLeftCorner<3, 3>() * J.transpose()};
+  return {(Eigen::Quaterniond(prf_core::exp_so3(vector.position)) * reference_).normalized(),
+          J * vector.velocity, J * vector.covariance.topLeftCorner<3, 3>() * J.transpose()};
 }
 
 }  // namespace prf_predictor

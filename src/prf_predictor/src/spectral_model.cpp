@@ -8,7 +8,8 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kFastest = 0.3;  // m/s, standard deviation of a drift that was seen only once
+constexpr double kDriftSpeed =
+    0.3;  // m/s, standard deviation of the velocity of a drift after one measurement
 
 }  // namespace
 
@@ -19,28 +20,30 @@ Transition transition(const VelocityDecay& drift, double dt) {
   return result;
 }
 
-Transition transition(const Resonance& resonance, double dt) {
-  const double W = resonance.frequency;
-  const double decay = resonance.damping * W;
-  const double damped = W * std::sqrt(1 - resonance.damping * resonance.damping);
+Transition transition(const DampedOscillator& oscillator, double dt) {
+  const double W = oscillator.frequency;
+  const double decay = oscillator.damping_ratio * W;
+  const double damped = W * std::sqrt(1 - oscillator.damping_ratio * oscillator.damping_ratio);
   const double envelope = std::exp(-decay * dt);
   const double cosine = envelope * std::cos(damped * dt);
   const double sine = envelope * std::sin(damped * dt) / damped;
   Transition result;
   result.F << cosine + decay * sine, sine, -W * W * sine, cosine - decay * sine;
   const Eigen::Matrix2d S =
-      std::pow(resonance.sigma, 2) * Eigen::Vector2d(1, W * W).asDiagonal().toDenseMatrix();
+      std::pow(oscillator.sigma, 2) * Eigen::Vector2d(1, W * W).asDiagonal().toDenseMatrix();
   result.Q = S - result.F * S * result.F.transpose();
   return result;
 }
 
-std::vector<Transition> Parts::transitions(double dt) const {
+std::vector<Transition> Components::transitions(double dt) const {
   std::vector<Transition> result{transition(drift, dt)};
-  for (const Resonance& resonance : resonances) result.push_back(transition(resonance, dt));
+  for (const DampedOscillator& oscillator : oscillators)
+    result.push_back(transition(oscillator, dt));
   return result;
 }
 
-SpectralBelief::SpectralBelief(const Parts& parts, std::shared_ptr<const std::vector<int>> used,
+SpectralBelief::SpectralBelief(const Components& components,
+                               std::shared_ptr<const std::vector<int>> used,
                                const Eigen::Vector3d& position, double variance)
     : used_(std::move(used)) {
   const auto size = 2 * static_cast<Eigen::Index>(used_->size());
@@ -48,14 +51,15 @@ SpectralBelief::SpectralBelief(const Parts& parts, std::shared_ptr<const std::ve
   P_.setZero(size, size);
   Eigen::Index row = 0;
   double unknown = variance;
-  for (const int part : *used_) {
-    if (part == 0) {
+  for (const int component : *used_) {
+    if (component == 0) {
       x_.row(row) = position;
-      P_(row + 1, row + 1) = std::min(parts.drift.prior_variance(), kFastest * kFastest);
+      P_(row + 1, row + 1) = std::min(components.drift.prior_variance(), kDriftSpeed * kDriftSpeed);
     } else {
-      const Resonance& resonance = parts.resonances[static_cast<std::size_t>(part - 1)];
-      P_(row, row) = std::pow(resonance.sigma, 2);
-      P_(row + 1, row + 1) = std::pow(resonance.sigma * resonance.frequency, 2);
+      const DampedOscillator& oscillator =
+          components.oscillators[static_cast<std::size_t>(component - 1)];
+      P_(row, row) = std::pow(oscillator.sigma, 2);
+      P_(row + 1, row + 1) = std::pow(oscillator.sigma * oscillator.frequency, 2);
       unknown += P_(row, row);
     }
     row += 2;
@@ -105,9 +109,9 @@ SpectralBelief::Forecast SpectralBelief::forecast(
   G.setZero(2, P_.rows());
   Eigen::Matrix2d Q = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < used_->size(); ++i) {
-    const Transition& part = transitions[static_cast<std::size_t>((*used_)[i])];
-    G.middleCols<2>(2 * static_cast<Eigen::Index>(i)) = part.F;
-    Q += part.Q;
+    const Transition& component = transitions[static_cast<std::size_t>((*used_)[i])];
+    G.middleCols<2>(2 * static_cast<Eigen::Index>(i)) = component.F;
+    Q += component.Q;
   }
   const Eigen::Matrix<double, 2, 3> mean = G * x_;
   return {mean.row(0), mean.row(1), G * P_ * G.transpose() + Q};
@@ -116,8 +120,8 @@ SpectralBelief::Forecast SpectralBelief::forecast(
 Eigen::Vector3d SpectralBelief::position(const std::vector<Transition>& transitions) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Index row = 0;
-  for (const int part : *used_) {
-    const Eigen::Matrix2d& F = transitions[static_cast<std::size_t>(part)].F;
+  for (const int component : *used_) {
+    const Eigen::Matrix2d& F = transitions[static_cast<std::size_t>(component)].F;
     for (int axis = 0; axis < 3; ++axis) {
       sum(axis) += F(0, 0) * x_(row, axis) + F(0, 1) * x_(row + 1, axis);
     }

@@ -15,11 +15,10 @@ constexpr double kNormTolerance = 0.01;
 
 }  // namespace
 
-void validate(const MeasurementDefaults& defaults) {
+void MeasurementDefaults::validate() const {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  require(positive(defaults.position_sigma), "position_sigma", defaults.position_sigma,
-          "finite and > 0 m");
-  require(positive(defaults.orientation_sigma), "orientation_sigma", defaults.orientation_sigma,
+  require(positive(position_sigma), "position_sigma", position_sigma, "finite and > 0 m");
+  require(positive(orientation_sigma), "orientation_sigma", orientation_sigma,
           "finite and > 0 rad");
 }
 

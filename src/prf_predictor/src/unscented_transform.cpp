@@ -9,11 +9,10 @@ namespace prf_predictor {
 
 using prf_core::require;
 
-void validate(const SigmaPointParams& params) {
-  require(params.alpha > 0 && params.alpha <= 1, "alpha", params.alpha, "> 0 and <= 1");
-  require(params.beta >= 0 && std::isfinite(params.beta), "beta", params.beta, "finite and >= 0");
-  require(params.kappa >= 0 && std::isfinite(params.kappa), "kappa", params.kappa,
-          "finite and >= 0");
+void SigmaPointParams::validate() const {
+  require(alpha > 0 && alpha <= 1, "alpha", alpha, "> 0 and <= 1");
+  require(beta >= 0 && std::isfinite(beta), "beta", beta, "finite and >= 0");
+  require(kappa >= 0 && std::isfinite(kappa), "kappa", kappa, "finite and >= 0");
 }
 
 SigmaPoints sigma_points(const Gaussian& belief, const SigmaPointParams& params) {

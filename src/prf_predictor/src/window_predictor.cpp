@@ -13,7 +13,8 @@ namespace prf_predictor {
 using prf_core::require;
 namespace {
 
-constexpr double kSpeed = 0.2;        // m/s, what a forecast is thought to miss before any came due
+constexpr double kSpeed =
+    0.2;  // m/s, error per horizon that is predicted before any prediction came due
 constexpr double kLeastSigma = 1e-4;  // m
 
 class Standstill : public Continuation {
@@ -52,15 +53,15 @@ void WindowPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matr
   while (samples_.front().time < time_ - extrapolation_->window()) samples_.pop_front();
   path_ = extrapolation_->fit(samples_);
   noise_ = covariance;
-  ledger_.observe(time_, position, covariance.diagonal());
-  ForecastLedger::Promises promises;
-  for (std::size_t k = 0; k < promises.size(); ++k) {
-    const double horizon = ForecastLedger::kHorizons[k];
-    promises[k].position = path_->position(time_ + horizon);
-    promises[k].candidates = promises[k].position;
-    promises[k].variance.setConstant(std::pow(kSpeed * horizon, 2));
+  scorer_.observe(time_, position, covariance.diagonal());
+  ForecastScorer::Predictions predictions;
+  for (std::size_t k = 0; k < predictions.size(); ++k) {
+    const double horizon = ForecastScorer::kHorizons[k];
+    predictions[k].position = path_->position(time_ + horizon);
+    predictions[k].candidates = predictions[k].position;
+    predictions[k].variance.setConstant(std::pow(kSpeed * horizon, 2));
   }
-  ledger_.promise(time_, std::move(promises));
+  scorer_.record(time_, std::move(predictions));
 }
 
 PointForecast WindowPredictor::forecast(double horizon) const {
@@ -71,13 +72,13 @@ PointForecast WindowPredictor::forecast(double horizon) const {
   forecast.position = path_->position(then);
   forecast.velocity = (path_->position(then + kStep) - forecast.position) / kStep;
 
-  // Standard deviations are straight lines between the ledger's horizons, from that of the sight.
+  // The standard deviation is linear between the scorer's horizons.
   const BetweenHorizons between = between_horizons(age);
   const auto sigma = [&](std::size_t k) -> Eigen::Array3d {
-    const Eigen::Array3d proven = ledger_.score(k).excess.max(0.0).sqrt();
-    return kSpeed * ForecastLedger::kHorizons[k] * proven;
+    const Eigen::Array3d inflation = scorer_.score(k).inflation.max(0.0).sqrt();
+    return kSpeed * ForecastScorer::kHorizons[k] * inflation;
   };
-  const auto& all = ForecastLedger::kHorizons;
+  const auto& all = ForecastScorer::kHorizons;
   const double beyond = age / std::clamp(age, all.front(), all.back());
   const Eigen::Array3d deviation =
       kLeastSigma + beyond * (sigma(between.lower) +

@@ -106,8 +106,3 @@ TEST(DecayingVelocity, RefusesParametersOutOfBounds) {
 
 }  // namespace
 }  // namespace prf_predictor
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

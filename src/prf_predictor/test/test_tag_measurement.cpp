@@ -80,8 +80,3 @@ TEST(TagMeasurement, TurnsItsCovarianceWithTheFrame) {
 
 }  // namespace
 }  // namespace prf_predictor
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""target_predictor_node from outside: every image is answered once, in order, the same way
+"""target_predictor_node from outside: every image gives one forecast, in order, the same
 whatever the order in which detections and tf arrive; bad parameters are refused."""
 import io
 import math
@@ -82,11 +82,11 @@ class TargetPredictorNode(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("target_predictor_test")
-        cls.answers = []
+        cls.forecasts = []
         cls.images = rospy.Publisher("tag_detections", TagDetectionArray, queue_size=100)
         cls.tf = rospy.Publisher("/tf", TFMessage, queue_size=1000)
         cls.tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        cls.subscriber = rospy.Subscriber("target/forecast", TargetForecast, cls.answers.append)
+        cls.subscriber = rospy.Subscriber("target/forecast", TargetForecast, cls.forecasts.append)
         cls.tf_static.publish(TFMessage([transform(ARM, CAMERA, 1.0, (0.0, 0.07, -0.12))]))
         cls.wait(lambda: all(p.get_num_connections()
                              for p in (cls.images, cls.tf, cls.tf_static, cls.subscriber)))
@@ -99,11 +99,11 @@ class TargetPredictorNode(unittest.TestCase):
             rospy.rostime.wallsleep(0.01)
         raise AssertionError("waited in vain")
 
-    def answer(self, count):
-        self.wait(lambda: len(self.answers) >= count)
+    def expect(self, count):
+        self.wait(lambda: len(self.forecasts) >= count)
         rospy.rostime.wallsleep(0.1)
-        self.assertEqual(len(self.answers), count, "exactly one answer for every image")
-        return self.answers[-1]
+        self.assertEqual(len(self.forecasts), count, "exactly one forecast for every image")
+        return self.forecasts[-1]
 
     def setUp(self):
         """Every test gets a run of its own, by stamps that go back far."""
@@ -114,7 +114,7 @@ class TargetPredictorNode(unittest.TestCase):
         for stamp in (5000.0, 5000.03):
             self.images.publish(detections(stamp, count=0))
         rospy.rostime.wallsleep(0.3)
-        self.answers.clear()
+        self.forecasts.clear()
 
     def send_tf(self, first, last):
         for k in range(round((last - first) / TF_PERIOD) + 1):
@@ -123,7 +123,7 @@ class TargetPredictorNode(unittest.TestCase):
     def test_one_image_gives_one_forecast(self):
         self.send_tf(100.0, 100.1)
         self.images.publish(detections(100.033))
-        forecast = self.answer(1)
+        forecast = self.expect(1)
         self.assertEqual(forecast.header.stamp, rospy.Time.from_sec(100.033))
         self.assertEqual(forecast.header.frame_id, BASE)
         self.assertEqual(forecast.status, TargetForecast.TRACKING)
@@ -145,7 +145,7 @@ class TargetPredictorNode(unittest.TestCase):
 
     def test_empty_image_needs_no_tf_and_gives_no_target(self):
         self.images.publish(detections(100.0, count=0))
-        forecast = self.answer(1)
+        forecast = self.expect(1)
         self.assertEqual(forecast.status, TargetForecast.NO_TARGET)
         self.assertEqual(forecast.predictions, [])
 
@@ -154,9 +154,9 @@ class TargetPredictorNode(unittest.TestCase):
             self.send_tf(after - 0.02, after - TF_PERIOD)
             self.images.publish(detections(stamp))
             rospy.rostime.wallsleep(0.3)
-            self.assertEqual(len(self.answers), count - 1)
+            self.assertEqual(len(self.forecasts), count - 1)
             self.tf.publish(arm_tf(after))
-            self.assertTrue(self.answer(count).measured)
+            self.assertTrue(self.expect(count).measured)
 
     def test_order_of_arrival_does_not_change_a_bit(self):
         stamps = image_stamps(100.0)
@@ -188,66 +188,66 @@ class TargetPredictorNode(unittest.TestCase):
         for order in (tf_first, tf_last, lambda: in_step(0.0), lambda: in_step(0.01)):
             self.begin_run()
             order()
-            self.answer(len(stamps))
-            found = [content(forecast) for forecast in self.answers]
-            self.assertTrue(all(forecast.measured for forecast in self.answers))
+            self.expect(len(stamps))
+            found = [content(forecast) for forecast in self.forecasts]
+            self.assertTrue(all(forecast.measured for forecast in self.forecasts))
             reference = reference or found
             self.assertTrue(found == reference, "some forecast differs")
 
-    def test_unusable_sights_are_answered_without_measurement(self):
+    def test_unusable_detections_give_a_forecast_without_measurement(self):
         self.send_tf(100.0, 101.0)
         rospy.rostime.wallsleep(0.3)
         self.images.publish(detections(100.05))
-        self.assertTrue(self.answer(1).measured)
+        self.assertTrue(self.expect(1).measured)
         cases = [detections(100.1, xyz=(math.nan, 0.0, 0.5)), detections(100.15, tag_id=3),
                  detections(100.2, frame="nowhere"), detections(100.25, frame=""),
                  detections(100.3, xyz=(0.0, 0.5, 0.5))]
         for count, case in enumerate(cases, start=2):
             self.images.publish(case)
-            forecast = self.answer(count)
+            forecast = self.expect(count)
             self.assertFalse(forecast.measured)
             self.assertTrue(all(math.isfinite(v) for p in forecast.predictions
                                 for v in p.covariance))
         self.images.publish(detections(100.35))
-        self.assertTrue(self.answer(len(cases) + 2).measured)
+        self.assertTrue(self.expect(len(cases) + 2).measured)
 
-    def test_image_before_all_tf_is_answered_at_once(self):
+    def test_image_before_all_tf_is_processed_at_once(self):
         self.send_tf(100.0, 100.1)
         self.images.publish(detections(99.9))
-        self.assertFalse(self.answer(1).measured)
+        self.assertFalse(self.expect(1).measured)
 
     def test_gives_up_on_silent_tf_by_the_stamps_of_images(self):
         self.images.publish(detections(100.0))
         self.images.publish(detections(100.4))
         rospy.rostime.wallsleep(0.3)
-        self.assertEqual(self.answers, [])
+        self.assertEqual(self.forecasts, [])
         self.images.publish(detections(100.6))
-        self.assertEqual(self.answer(1).status, TargetForecast.NO_TARGET)
+        self.assertEqual(self.expect(1).status, TargetForecast.NO_TARGET)
 
     def test_lone_stamp_far_in_the_future_is_dropped(self):
         self.send_tf(100.0, 100.4)
         rospy.rostime.wallsleep(0.3)
         for stamp in (100.05, 900.0, 100.1, 3000.0, 800.0, 100.15):
             self.images.publish(detections(stamp))
-        self.answer(3)
-        self.assertEqual([round(a.header.stamp.to_sec(), 3) for a in self.answers],
+        self.expect(3)
+        self.assertEqual([round(f.header.stamp.to_sec(), 3) for f in self.forecasts],
                          [100.05, 100.1, 100.15])
-        self.assertTrue(all(a.measured and a.status == TargetForecast.TRACKING
-                            for a in self.answers))
+        self.assertTrue(all(f.measured and f.status == TargetForecast.TRACKING
+                            for f in self.forecasts))
 
     def test_time_that_goes_on_after_a_leap_is_followed(self):
         self.send_tf(100.0, 100.1)
         self.images.publish(detections(100.05))
-        self.answer(1)
+        self.expect(1)
         self.send_tf(900.0, 900.2)
         self.images.publish(detections(900.05))
         rospy.rostime.wallsleep(0.2)
-        self.assertEqual(len(self.answers), 1)
+        self.assertEqual(len(self.forecasts), 1)
         self.images.publish(detections(900.08))
-        self.answer(3)
-        self.assertEqual([round(a.header.stamp.to_sec(), 3) for a in self.answers],
+        self.expect(3)
+        self.assertEqual([round(f.header.stamp.to_sec(), 3) for f in self.forecasts],
                          [100.05, 900.05, 900.08])
-        self.assertTrue(all(a.status == TargetForecast.LOST for a in self.answers[1:]))
+        self.assertTrue(all(f.status == TargetForecast.LOST for f in self.forecasts[1:]))
 
     def test_second_publisher_is_reported(self):
         counters = {}
@@ -273,14 +273,15 @@ class TargetPredictorNode(unittest.TestCase):
 
 class TargetPredictorParameters(unittest.TestCase):
     CATALOGUE = [
-        ("planning_frame", ""), ("planning_frame", 1), ("tag_id", -1), ("tag_id", 0.5),
+        ("planning_frame", ""), ("tag_frame_prefix", ""), ("planning_frame", 1), ("tag_id", -1), ("tag_id", 0.5),
         ("horizons", []), ("horizons", [0.1, 0.2]), ("horizons", [0.0, 0.2, 0.2]),
         ("horizons", [0.0, float("nan")]), ("horizons", "soon"), ("tf_wait", -1.0),
         ("predictor", "magic"), ("predictor", 1), ("acceleration_density", 0.0),
         ("acceleration_density", float("nan")), ("orientation_gate_sigma", -1.0),
         ("velocity_time_constant", 0.0),
         ("jerk_density", 1.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
-        ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_speed", -0.001), ("measurement_scale", 0.0), ("reacquire_hits", 1),
+        ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_speed", -0.001),
+        ("measurement_scale", 0.0), ("reacquire_hits", 1),
         ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
     ]
 

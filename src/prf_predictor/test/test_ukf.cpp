@@ -174,23 +174,13 @@ TEST(UnscentedTransform, GivesThePositionExactly) {
 }
 
 TEST(SigmaPointParams, AreRefusedOutOfBounds) {
-  EXPECT_NO_THROW(validate(SigmaPointParams::paper()));
-  EXPECT_NO_THROW(validate(SigmaPointParams::textbook()));
+  EXPECT_NO_THROW(SigmaPointParams::paper().validate());
+  EXPECT_NO_THROW(SigmaPointParams::textbook().validate());
   for (const SigmaPointParams& bad :
        {SigmaPointParams{0, 2, 0}, {1.1, 2, 0}, {NAN, 2, 0}, {1, -1, 0}, {1, 2, -1}, {1, 2, NAN}}) {
-    EXPECT_THROW(validate(bad), std::invalid_argument);
+    EXPECT_THROW(bad.validate(), std::invalid_argument);
   }
-}
-
-TEST(ChiSquareQuantile, AgreesWithTables) {
-  EXPECT_NEAR(chi_square_quantile_3(0.95), 7.814728, 1e-6);
-  EXPECT_NEAR(chi_square_quantile_3(0.999), 16.266236, 1e-6);
 }
 
 }  // namespace
 }  // namespace prf_predictor
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

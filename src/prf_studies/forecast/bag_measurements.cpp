@@ -13,8 +13,11 @@
 #include <optional>
 #include <stdexcept>
 
-namespace prf_predictor {
+namespace prf_studies {
 namespace {
+
+using prf_predictor::MeasurementDefaults;
+using prf_predictor::TagMeasurement;
 
 constexpr std::size_t kFewest = 30;
 constexpr MeasurementDefaults kDefaults{0.002, 0.02};
@@ -81,4 +84,4 @@ std::vector<TimedMeasurement> measurements_in_bag(const std::string& path,
   return measurements;
 }
 
-}  // namespace prf_predictor
+}  // namespace prf_studies

@@ -8,11 +8,11 @@
 
 #include "prf_predictor/tag_measurement.hpp"
 
-namespace prf_predictor {
+namespace prf_studies {
 
 struct TimedMeasurement {
   double time = 0.0;  // s
-  TagMeasurement measurement;
+  prf_predictor::TagMeasurement measurement;
 };
 
 // Of the tag of this id in the planning frame, by the tf of each image's stamp, in the order of
@@ -21,4 +21,4 @@ struct TimedMeasurement {
                                                                 const std::string& planning_frame,
                                                                 int tag_id);
 
-}  // namespace prf_predictor
+}  // namespace prf_studies

@@ -10,26 +10,20 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <nlopt.hpp>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "bag_measurements.hpp"
+#include "command.hpp"
 #include "predictor_file.hpp"
 #include "prf_predictor/predictors.hpp"
 
-namespace prf_predictor {
+namespace prf_studies {
 namespace {
 
-constexpr char kUsage[] =
-    "usage: fit_noise BAG... [--predictor ukf] [--from FILE.yaml] [--out FILE.yaml]\n"
-    "                 [--json FILE] [--tag 0] [--planning-frame j2s7s300_link_base]\n"
-    "                 [--measurement-scale FACTOR]\n"
-    "  --from: starts from this predictor's file instead of the packaged one\n"
-    "  --measurement-scale: keeps the scale of the measurements' covariance at this, 1e-4 .. 1e4\n"
-    "  --tag: number of the tag that is the target";
-constexpr double kLongestGap = 1.0;  // s without sight, after which the filter begins anew
+constexpr double kLongestGap = 1.0;  // s without measurement, after which the filter starts again
 constexpr double kFarthest = 1e4;    // factor that a parameter may change by
 constexpr int kEvaluations = 300;
 constexpr std::array<double, 5> kHorizons{0.1, 0.25, 0.5, 1.0, 2.0};  // s
@@ -38,6 +32,7 @@ using Series = std::vector<std::vector<TimedMeasurement>>;
 
 struct Options {
   std::vector<std::string> bags;
+  std::string predictor = "ukf";
   std::string from;
   std::string out;
   std::string json;
@@ -46,101 +41,48 @@ struct Options {
   std::optional<double> measurement_scale;
 };
 
-double number(const std::string& option, const std::string& text, double lowest, double highest) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !(value >= lowest && value <= highest)) {
-    std::ostringstream message;
-    message << option << " = " << text << ", must be a number " << lowest << " .. " << highest;
-    throw std::invalid_argument(message.str());
-  }
-  return value;
-}
-
-Options read_options(int argc, char** argv) {
-  Options options;
-  std::string predictor = "ukf";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.rfind("--", 0) != 0) {
-      options.bags.push_back(word);
-      continue;
-    }
-    if (word == "--help") throw std::invalid_argument(kUsage);
-    if (i + 1 == argc) throw std::invalid_argument(word + " needs a value\n" + kUsage);
-    const std::string value = argv[++i];
-    if (word == "--predictor") {
-      predictor = value;
-    } else if (word == "--from") {
-      options.from = value;
-    } else if (word == "--out") {
-      options.out = value;
-    } else if (word == "--json") {
-      options.json = value;
-    } else if (word == "--planning-frame") {
-      options.planning_frame = value;
-    } else if (word == "--tag") {
-      options.tag_id = static_cast<int>(number(word, value, 0, 1e6));
-    } else if (word == "--measurement-scale") {
-      options.measurement_scale = number(word, value, 1e-4, 1e4);
-    } else {
-      throw std::invalid_argument("unknown option " + word + "\n" + kUsage);
-    }
-  }
-  if (options.bags.empty()) throw std::invalid_argument(kUsage);
-  (void)predictor_parameters(predictor);
-  if (options.from.empty()) {
-    options.from =
-        ros::package::getPath("prf_predictor") + "/config/predictors/" + predictor + ".yaml";
-  }
-  return options;
-}
-
 struct Figures {
-  double log_likelihood = 0.0;  // per sight
+  double log_likelihood = 0.0;  // per measurement
   double nis = 0.0;
-  std::array<double, kHorizons.size()> rms_error{};  // m, of forecasts from where later sights were
+  std::array<double, kHorizons.size()> rms_error{};  // m, of forecasts, against later measurements
 };
 
-// Runs the predictor over all sights; with `with_errors` also compares forecasts.
+// Runs the predictor over all measurements; with `with_errors` also compares forecasts.
 Figures follow(const PredictorFile& file, const Series& series, bool with_errors) {
   Figures figures;
   std::size_t count = 0;
   std::array<std::size_t, kHorizons.size()> forecasts{};
-  const auto target = make_predictor(file.predictor, file.values);
-  for (const auto& sights : series) {
-    for (std::size_t i = 0; i < sights.size(); ++i) {
-      const TagMeasurement& seen = sights[i].measurement;
-      const Eigen::Matrix3d R = file.measurement_scale * seen.position_covariance;
-      if (i == 0 || sights[i].time - sights[i - 1].time > kLongestGap) {
-        target->begin(seen.position, R);
+  const auto target = file.make();
+  for (const auto& measurements : series) {
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const prf_predictor::TagMeasurement& measured = measurements[i].measurement;
+      const Eigen::Matrix3d R = file.measurement_scale * measured.position_covariance;
+      if (i == 0 || measurements[i].time - measurements[i - 1].time > kLongestGap) {
+        target->begin(measured.position, R);
         continue;
       }
-      target->advance(sights[i].time - sights[i - 1].time);
-      const PointForecast expected = target->forecast(0);
+      target->advance(measurements[i].time - measurements[i - 1].time);
+      const prf_predictor::PointForecast expected = target->forecast(0);
       const Eigen::Matrix3d S = expected.covariance.topLeftCorner<3, 3>() + R;
-      const Eigen::Vector3d nu = seen.position - expected.position;
+      const Eigen::Vector3d nu = measured.position - expected.position;
       const double nis = nu.dot(S.llt().solve(nu));
       figures.nis += nis;
       figures.log_likelihood -= 0.5 * (nis + std::log((2 * M_PI * S).determinant()));
       ++count;
-      target->correct(seen.position, R);
+      target->correct(measured.position, R);
       if (!with_errors) continue;
       for (std::size_t k = 0; k < kHorizons.size(); ++k) {
         std::size_t later = i;
-        while (later < sights.size() && sights[later].time < sights[i].time + kHorizons[k]) {
+        while (later < measurements.size() &&
+               measurements[later].time < measurements[i].time + kHorizons[k]) {
           ++later;
         }
-        if (later == sights.size()) continue;
-        const double ahead = sights[later].time - sights[i].time;
+        if (later == measurements.size()) continue;
+        const double ahead = measurements[later].time - measurements[i].time;
         if (ahead > kHorizons[k] + 0.05) continue;
         figures.rms_error[k] +=
-            (target->forecast(ahead).position - sights[later].measurement.position).squaredNorm();
+            (target->forecast(ahead).position - measurements[later].measurement.position)
+                .squaredNorm();
         ++forecasts[k];
       }
     }
@@ -176,7 +118,7 @@ class Fit {
     search.set_maxeval(kEvaluations);
     double best = 0.0;
     search.optimize(x, best);
-    if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\n");
+    if (isatty(STDERR_FILENO) != 0) std::cerr << "\n";
     return at(x);
   }
 
@@ -211,23 +153,15 @@ void print(const char* label, const Figures& figures) {
   std::printf("\n");
 }
 
-std::string as_json(const PredictorFile& file, const Figures& figures) {
-  std::ostringstream text;
-  text << "{\"log_likelihood_per_sight\": " << figures.log_likelihood
-       << ", \"nis\": " << figures.nis << ", \"rms_error_m\": [";
-  for (std::size_t k = 0; k < kHorizons.size(); ++k) {
-    text << (k > 0 ? ", " : "") << figures.rms_error[k];
-  }
-  text << "], \"measurement_scale\": " << file.measurement_scale;
+nlohmann::json as_json(const PredictorFile& file, const Figures& figures) {
+  nlohmann::json json{{"log_likelihood_per_measurement", figures.log_likelihood},
+                      {"nis", figures.nis},
+                      {"rms_error_m", figures.rms_error},
+                      {"measurement_scale", file.measurement_scale}};
   for (const auto& [key, value] : file.values) {
-    text << ", \"" << key << "\": ";
-    if (std::isfinite(value)) {
-      text << value;
-    } else {
-      text << "null";
-    }
+    json[key] = std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
   }
-  return text.str() + "}";
+  return json;
 }
 
 void write(const std::string& path, const std::string& content) {
@@ -239,16 +173,20 @@ void write(const std::string& path, const std::string& content) {
 }
 
 void run(const Options& options) {
-  PredictorFile before = read_predictor_file(options.from);
+  PredictorFile before = read_predictor_file(
+      !options.from.empty() ? options.from
+                            : ros::package::getPath("prf_predictor") + "/config/predictors/" +
+                                  options.predictor + ".yaml");
   if (options.measurement_scale) before.measurement_scale = *options.measurement_scale;
   if (before.values.empty() || before.predictor == "periodic" || before.predictor == "sines" ||
       before.predictor == "autoregressive") {
-    throw std::invalid_argument("predictor = " + before.predictor +
-                                ", has no noise to fit (its covariance follows from how its "
-                                "forecasts proved), must be ukf, paper, constant_velocity, "
-                                "constant_acceleration, oscillation or ekf");
+    throw std::invalid_argument(
+        "predictor = " + before.predictor +
+        ", has no noise to fit (its covariance comes from the errors of its "
+        "own forecasts), must be ukf, paper, constant_velocity, "
+        "constant_acceleration, oscillation or ekf");
   }
-  (void)make_predictor(before.predictor, before.values);
+  (void)before.make();
   Series series;
   for (const std::string& bag : options.bags) {
     series.push_back(measurements_in_bag(bag, options.planning_frame, options.tag_id));
@@ -266,22 +204,31 @@ void run(const Options& options) {
   }
   std::printf("%-24s %10.4g -> %.4g\n", "measurement_scale", before.measurement_scale,
               after.measurement_scale);
-  write(options.out, text_of(after));
-  write(options.json,
-        "{\"horizons_s\": [0.1, 0.25, 0.5, 1, 2], \"before\": " + as_json(before, old_figures) +
-            ", \"after\": " + as_json(after, new_figures) + "}\n");
+  write(options.out, after.text());
+  const nlohmann::json json{{"horizons_s", kHorizons},
+                            {"before", as_json(before, old_figures)},
+                            {"after", as_json(after, new_figures)}};
+  write(options.json, json.dump() + "\n");
 }
 
 }  // namespace
-}  // namespace prf_predictor
+}  // namespace prf_studies
 
 int main(int argc, char** argv) {
-  try {
-    prf_predictor::run(prf_predictor::read_options(argc, argv));
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    constexpr int kUsageError = 2;
-    std::cerr << "fit_noise: " << error.what() << "\n";
-    return kUsageError;
-  }
+  prf_studies::Options options;
+  CLI::App app("Fits a predictor's noise to bags by the likelihood of the innovations",
+               "fit_noise");
+  app.add_option("BAG", options.bags)->required();
+  app.add_option("--predictor", options.predictor)
+      ->check(CLI::IsMember(prf_predictor::predictor_names()));
+  app.add_option("--from", options.from, "file to start from instead of the packaged one");
+  app.add_option("--out", options.out, "file for the fitted parameters");
+  app.add_option("--json", options.json);
+  app.add_option("--tag", options.tag_id, "number of the target's tag")
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--planning-frame", options.planning_frame);
+  app.add_option("--measurement-scale", options.measurement_scale,
+                 "keeps the scale of the measurements' covariance at this")
+      ->check(CLI::Range(1e-4, 1e4));
+  return prf_studies::run_command(app, argc, argv, [&] { prf_studies::run(options); });
 }

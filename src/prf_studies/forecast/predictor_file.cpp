@@ -5,7 +5,9 @@
 
 #include <stdexcept>
 
-namespace prf_predictor {
+#include "prf_predictor/predictors.hpp"
+
+namespace prf_studies {
 
 PredictorFile read_predictor_file(const std::string& path) {
   try {
@@ -21,36 +23,40 @@ PredictorFile read_predictor_file(const std::string& path) {
         file.values[key] = entry.second.as<double>();
       }
     }
-    if (file.predictor.empty()) throw std::invalid_argument(path + " names no predictor");
+    if (file.predictor.empty()) throw std::invalid_argument(path + " has no key predictor");
     return file;
   } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(path + " is no predictor's file: " + error.what());
+    throw std::invalid_argument(path + " cannot be read as a predictor's file: " + error.what());
   }
 }
 
-TrackerParams read_tracker_params(const std::string& path) {
+prf_predictor::TrackerParams read_tracker_params(const std::string& path) {
   try {
     const YAML::Node root = YAML::LoadFile(path);
-    TrackerParams params;
+    prf_predictor::TrackerParams params;
     params.gate_probability = root["gate_probability"].as<double>();
     params.gate_speed = root["gate_speed"].as<double>();
     params.orientation_gate_sigma = root["orientation_gate_sigma"].as<double>();
     params.reacquire_hits = root["reacquire_hits"].as<int>();
     params.coast_after = root["coast_after"].as<double>();
     params.lost_after = root["lost_after"].as<double>();
-    validate(params);
+    params.validate();
     return params;
   } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(path + " is no target_predictor.yaml: " + error.what());
+    throw std::invalid_argument(path + " cannot be read as target_predictor.yaml: " + error.what());
   }
 }
 
-std::string text_of(const PredictorFile& file) {
+std::unique_ptr<prf_predictor::TargetPredictor> PredictorFile::make() const {
+  return prf_predictor::make_predictor(predictor, values);
+}
+
+std::string PredictorFile::text() const {
   YAML::Emitter text;
-  text << YAML::BeginMap << YAML::Key << "predictor" << YAML::Value << file.predictor;
-  for (const auto& [key, value] : file.values) text << YAML::Key << key << YAML::Value << value;
-  text << YAML::Key << "measurement_scale" << YAML::Value << file.measurement_scale << YAML::EndMap;
+  text << YAML::BeginMap << YAML::Key << "predictor" << YAML::Value << predictor;
+  for (const auto& [key, value] : values) text << YAML::Key << key << YAML::Value << value;
+  text << YAML::Key << "measurement_scale" << YAML::Value << measurement_scale << YAML::EndMap;
   return std::string(text.c_str()) + "\n";
 }
 
-}  // namespace prf_predictor
+}  // namespace prf_studies

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace prf_predictor {
+namespace prf_studies {
 namespace {
 
 constexpr double kLongestGap = 0.05;          // s between rows
@@ -32,7 +32,7 @@ std::optional<std::size_t> find(const std::vector<std::string>& header, const st
 
 }  // namespace
 
-std::optional<RecordedMotion::Pose> RecordedMotion::at(double t) const {
+std::optional<prf_core::Pose> RecordedMotion::at(double t) const {
   const auto after = std::lower_bound(time.begin(), time.end(), t);
   if (after == time.end()) return std::nullopt;
   const auto i = static_cast<std::size_t>(after - time.begin());
@@ -40,7 +40,7 @@ std::optional<RecordedMotion::Pose> RecordedMotion::at(double t) const {
   if (i == 0 ? *after > t : time[i] - time[before] > kLongestGap) return std::nullopt;
   const double width = time[i] - time[before];
   const double fraction = width > 0 ? (t - time[before]) / width : 0.0;
-  Pose pose;
+  prf_core::Pose pose;
   pose.position = position[before] + fraction * (position[i] - position[before]);
   if (!orientation.empty()) {
     pose.orientation = orientation[before].slerp(fraction, orientation[i]);
@@ -54,7 +54,7 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
   RecordedMotion motion;
   std::array<std::size_t, 4> own{};
   std::vector<std::size_t> camera;
-  std::vector<std::size_t> turn;
+  std::vector<std::size_t> quaternion;
   std::size_t count = 0;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#') continue;
@@ -68,7 +68,7 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
       }
       const std::string prefix = columns[1].substr(0, columns[1].size() - 1);
       for (const char* name : {"qx", "qy", "qz", "qw"}) {
-        if (const auto found = find(cells, prefix + name)) turn.push_back(*found);
+        if (const auto found = find(cells, prefix + name)) quaternion.push_back(*found);
       }
       for (const char* name : {"camera_x", "camera_y", "camera_z"}) {
         if (const auto found = find(cells, name)) camera.push_back(*found);
@@ -83,9 +83,10 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
       }
       motion.time.push_back(t);
       motion.position.emplace_back(number(own[1]), number(own[2]), number(own[3]));
-      if (turn.size() == 4) {
+      if (quaternion.size() == 4) {
         motion.orientation.push_back(
-            Eigen::Quaterniond(number(turn[3]), number(turn[0]), number(turn[1]), number(turn[2]))
+            Eigen::Quaterniond(number(quaternion[3]), number(quaternion[0]), number(quaternion[1]),
+                               number(quaternion[2]))
                 .normalized());
       }
       if (motion.time.size() > 1) continue;
@@ -101,37 +102,38 @@ RecordedMotion read_motion(const std::string& path, const std::array<std::string
   return motion;
 }
 
-std::vector<Sighting> see(const RecordedMotion& motion, double rate, std::uint32_t seed) {
+std::vector<Image> simulate_images(const RecordedMotion& motion, double rate, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, 1);
-  std::vector<Sighting> sightings;
+  std::vector<Image> images;
   const double start = motion.time.front();
   for (int frame = 0;; ++frame) {
-    const auto since = static_cast<Nanoseconds>(std::llround(frame * 1000.0 / rate)) * 1'000'000;
-    const double t = start + 1e-9 * static_cast<double>(since);
-    if (t > motion.time.back()) return sightings;
-    Sighting sighting{since, {}};
+    const std::chrono::milliseconds since(std::llround(frame * 1000.0 / rate));
+    const double t = start + prf_core::to_seconds(since);
+    if (t > motion.time.back()) return images;
+    Image image{since, {}};
     if (const auto truth = motion.at(t)) {
       const Eigen::Vector3d view = truth->position - motion.camera;
       const double growth = view.squaredNorm();
       const Eigen::Vector3d along = view.normalized();
-      TagMeasurement sight;
-      sight.position_covariance =
+      prf_predictor::TagMeasurement measurement;
+      measurement.position_covariance =
           (std::pow(kLateral * growth, 2) + kFloor * kFloor) * Eigen::Matrix3d::Identity() +
           (std::pow(kAlong * growth, 2) - std::pow(kLateral * growth, 2)) * along *
               along.transpose();
-      const Eigen::Matrix3d root = sight.position_covariance.llt().matrixL();
+      const Eigen::Matrix3d root = measurement.position_covariance.llt().matrixL();
       const double x = normal(random);
       const double y = normal(random);
-      sight.position = truth->position + root * Eigen::Vector3d(x, y, normal(random));
-      Eigen::Vector3d turn;
-      for (double& angle : turn) angle = kOrientationSigma * normal(random);
-      sight.orientation = rotation_of(turn) * truth->orientation;
-      sight.orientation_covariance = std::pow(kOrientationSigma, 2) * Eigen::Matrix3d::Identity();
-      sighting.sights.push_back(sight);
+      measurement.position = truth->position + root * Eigen::Vector3d(x, y, normal(random));
+      Eigen::Vector3d rotation;
+      for (double& angle : rotation) angle = kOrientationSigma * normal(random);
+      measurement.orientation = prf_core::exp_so3(rotation) * truth->orientation;
+      measurement.orientation_covariance =
+          std::pow(kOrientationSigma, 2) * Eigen::Matrix3d::Identity();
+      image.measurements.push_back(measurement);
     }
-    sightings.push_back(sighting);
+    images.push_back(image);
   }
 }
 
-}  // namespace prf_predictor
+}  // namespace prf_studies

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The true path of a target, and how a camera would have seen it.
+// The true path of a target, and the measurements that a camera would give of it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "prf_predictor/target_tracker.hpp"
+#include <prf_core/se3.hpp>
+#include <prf_core/time.hpp>
 
-namespace prf_predictor {
+#include "prf_predictor/tag_measurement.hpp"
+
+namespace prf_studies {
 
 struct RecordedMotion {
   std::vector<double> time;  // s, rising
@@ -19,31 +22,27 @@ struct RecordedMotion {
   std::vector<Eigen::Quaterniond> orientation;  // perhaps none
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();
 
-  struct Pose {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  };
-  // By interpolation; nothing outside or in a gap.
-  [[nodiscard]] std::optional<Pose> at(double t) const;
+  // By interpolation; nothing outside of the recording or in a gap.
+  [[nodiscard]] std::optional<prf_core::Pose> at(double t) const;
 };
 
-// CSV with lines of comment (#) and a header; `columns` are the names of time, x, y and z. Where
-// the name of x ends so and there are columns of the same names with qx, qy, qz and qw, they are
-// the orientation. The camera is where camera_x, camera_y, camera_z of the first row say, else 0.6
-// m before the target. Throws std::invalid_argument with file and reason.
+// CSV with comment lines (#) and a header. `columns` are the names of time, x, y and z. Columns
+// with qx, qy, qz and qw in place of the x of that name are the orientation, if there are any. The
+// camera is at camera_x, camera_y, camera_z of the first row, else 0.6 m before the target. Throws
+// std::invalid_argument with file and reason.
 [[nodiscard]] RecordedMotion read_motion(const std::string& path,
                                          const std::array<std::string, 4>& columns);
 
-struct Sighting {
-  Nanoseconds stamp = 0;
-  std::vector<TagMeasurement> sights;
+struct Image {
+  prf_core::Stamp stamp{0};
+  std::vector<prf_predictor::TagMeasurement> measurements;
 };
 
-// What a detector of prf_perception's accuracy reports of a tag of 0.1 m at `rate` images a
-// second: seen d metres away, d = 1 standing for 0.07 mm across and 0.7 mm along the line of
-// sight, growing with d^2, and 0.3 mm that no view undercuts. The noise is drawn from the
-// covariance that is reported. Orientations have a noise of 2.5 mrad about each axis.
-[[nodiscard]] std::vector<Sighting> see(const RecordedMotion& motion, double rate,
-                                        std::uint32_t seed);
+// Measurements as a detector of prf_perception's accuracy gives them of a tag of 0.1 m, `rate`
+// images a second. At a distance of d metres the standard deviation is 0.07 mm d^2 across and 0.7
+// mm d^2 along the view ray, each with 0.3 mm added in quadrature. Orientations have 2.5 mrad about
+// each axis. The noise is drawn from the covariance that is reported.
+[[nodiscard]] std::vector<Image> simulate_images(const RecordedMotion& motion, double rate,
+                                                 std::uint32_t seed);
 
-}  // namespace prf_predictor
+}  // namespace prf_studies

@@ -4,13 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <random>
 #include <vector>
 
+#include "command.hpp"
 #include "predictor_file.hpp"
-#include "prf_predictor/predictors.hpp"
 
 namespace {
 
@@ -23,12 +21,12 @@ double median_us(prf_predictor::TargetPredictor& predictor) {
   std::normal_distribution<double> normal(0, 3e-4);
   std::vector<double> times;
   for (int k = 0; k < kSteps; ++k) {
-    const double swing = 0.05 * std::sin(2.4 * k * kFrame);
-    const Eigen::Vector3d seen(swing + normal(random), normal(random), normal(random));
-    if (k == 0) predictor.begin(seen, R);
+    const double wave = 0.05 * std::sin(2.4 * k * kFrame);
+    const Eigen::Vector3d measured(wave + normal(random), normal(random), normal(random));
+    if (k == 0) predictor.begin(measured, R);
     const auto start = std::chrono::steady_clock::now();
     predictor.advance(kFrame);
-    predictor.correct(seen, R);
+    predictor.correct(measured, R);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (k >= kFirst) times.push_back(1e6 * took.count());
   }
@@ -39,14 +37,10 @@ double median_us(prf_predictor::TargetPredictor& predictor) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    if (argc != 2) throw std::invalid_argument("usage: time_predictors PREDICTOR.yaml");
-    const auto file = prf_predictor::read_predictor_file(argv[1]);
-    std::printf("%.3f\n", median_us(*prf_predictor::make_predictor(file.predictor, file.values)));
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    constexpr int kUsageError = 2;
-    std::cerr << "time_predictors: " << error.what() << "\n";
-    return kUsageError;
-  }
+  CLI::App app("Median time of one prediction and correction, us", "time_predictors");
+  std::string file;
+  app.add_option("PREDICTOR.yaml", file)->required();
+  return prf_studies::run_command(app, argc, argv, [&] {
+    std::printf("%.3f\n", median_us(*prf_studies::read_predictor_file(file).make()));
+  });
 }

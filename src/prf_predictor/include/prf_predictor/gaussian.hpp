@@ -30,8 +30,4 @@ struct Gaussian {
 // Some L with L L^T = P for a positive semidefinite P.
 [[nodiscard]] StateMatrix square_root(const StateMatrix& covariance);
 
-// The value below which a chi-square variable of three degrees of freedom lies with the
-// probability p in (0, 1).
-[[nodiscard]] double chi_square_quantile_3(double p);
-
 }  // namespace prf_predictor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a target moves between two looks at it: the model is a value apart from the filter.
+// How a target moves between two measurements. The model is a value apart from the filter.
 //
 // A state starts with position and velocity (6 numbers, m and m/s, in the planning frame); a model
 // may append more.
@@ -40,10 +40,9 @@ struct VelocityDecay {
   [[nodiscard]] Eigen::Matrix2d noise(double dt) const;   // Q
   // Of the velocity before anything is known: the stationary one, at most 1.
   [[nodiscard]] double prior_variance() const;
-};
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const VelocityDecay& decay);
+  void validate() const;
+};
 
 class DecayingVelocity : public MotionModel {
  public:
@@ -77,8 +76,8 @@ class ConstantAcceleration : public MotionModel {
   double jerk_density_;
 };
 
-// What swings about a centre with an unknown frequency common to the axes: p'' = -W^2 (p - c) + w;
-// ten numbers (p v c ln W). Centre and ln W drift like random walks. Not linear.
+// An oscillation about a centre, of an unknown frequency common to the axes: p'' = -W^2 (p - c) +
+// w; ten numbers (p v c ln W). Centre and ln W drift like random walks. Not linear.
 struct OscillationNoise {
   double acceleration_density = 0.0;  // of w, (m/s^2)^2 / Hz, > 0
   double centre_density = 0.0;        // of c', (m/s)^2 / Hz, > 0

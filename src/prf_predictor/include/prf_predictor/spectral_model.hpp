@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A position as a sum of independent parts, the same for the three axes but for their states: a
-// linear state-space model with two numbers of state per part, and its Kalman filter.
+// A position as the sum of independent components, and the Kalman filter of that linear model. Each
+// component has two numbers of state per axis, of which the first is its contribution to the
+// position:
+//   drift                VelocityDecay: position and velocity of slow, unbounded motion
+//   damped oscillator    x'' = -2 z W x' - W^2 x + w
+// W is the angular frequency, z the damping ratio and w white noise such that the stationary
+// standard deviation of x is s. A small z is a narrow line in the spectrum, whose phase is
+// remembered for about 1 / (z W); z near 1 is a random motion that returns to 0.
 //
-// Parts, with the position that they add first in their state:
-//   drift      VelocityDecay: position and velocity of slow, unbounded change
-//   resonance  x'' = -2 z W x' - W^2 x + w: a swing of frequency W that w keeps alive; its
-//              stationary standard deviation is s. The smaller z, the purer and the longer
-//              remembered; z near 1 is a wander that returns to 0.
 // With the stationary covariance S = diag(s^2, s^2 W^2), F = exp(A dt) and Q = S - F S F^T exactly.
 //
-// The noise of a measurement is taken as the same for the axes (its mean variance), so that they
-// share covariance and gain.
+// The measurement noise is taken as the same for the three axes (the mean of their variances), so
+// that they share covariance and gain.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +22,10 @@
 
 namespace prf_predictor {
 
-struct Resonance {
-  double frequency = 0.0;  // W, rad/s, > 0
-  double damping = 0.0;    // z, > 0 and < 1
-  double sigma = 0.0;      // s, m, > 0
+struct DampedOscillator {
+  double frequency = 0.0;      // W, rad/s, > 0
+  double damping_ratio = 0.0;  // z, > 0 and < 1
+  double sigma = 0.0;          // s, m, > 0
 };
 
 struct Transition {
@@ -33,20 +34,20 @@ struct Transition {
 };
 
 [[nodiscard]] Transition transition(const VelocityDecay& drift, double dt);
-[[nodiscard]] Transition transition(const Resonance& resonance, double dt);
+[[nodiscard]] Transition transition(const DampedOscillator& oscillator, double dt);
 
-// A drift, which is part 0, and resonances: what models are put together from.
-struct Parts {
+// A drift, which is component 0, and oscillators, from which models choose.
+struct Components {
   VelocityDecay drift;
-  std::vector<Resonance> resonances;
+  std::vector<DampedOscillator> oscillators;
 
   [[nodiscard]] std::vector<Transition> transitions(double dt) const;
 };
 
-// The belief of one model, which consists of some of the parts, by their numbers.
+// The belief of one model, which is the sum of some of the components, given by their numbers.
 class SpectralBelief {
  public:
-  static constexpr int kMostParts = 12;
+  static constexpr int kMostComponents = 12;
 
   struct Forecast {
     Eigen::Vector3d position;
@@ -54,7 +55,7 @@ class SpectralBelief {
     Eigen::Matrix2d covariance;  // of position and velocity, for each axis
   };
 
-  SpectralBelief(const Parts& parts, std::shared_ptr<const std::vector<int>> used,
+  SpectralBelief(const Components& components, std::shared_ptr<const std::vector<int>> used,
                  const Eigen::Vector3d& position, double variance);
 
   void advance(const std::vector<Transition>& transitions);
@@ -65,7 +66,7 @@ class SpectralBelief {
   [[nodiscard]] Eigen::MatrixXd covariance() const { return P_; }
 
  private:
-  static constexpr int kMost = 2 * kMostParts;
+  static constexpr int kMost = 2 * kMostComponents;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMost, 3>;
   using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
 

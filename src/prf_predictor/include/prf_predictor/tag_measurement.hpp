@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One sight of the target, made fit for a filter.
+// One measurement of the target's pose, checked before a filter uses it.
 //
 // Covariances are of (x y z) and of the rotation vector about the axes of the frame the pose is
 // given in: orientation_true = Exp(theta) orientation.
@@ -21,10 +21,9 @@ struct TagMeasurement {
 struct MeasurementDefaults {
   double position_sigma = 0.0;     // m, > 0
   double orientation_sigma = 0.0;  // rad, > 0
-};
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const MeasurementDefaults& defaults);
+  void validate() const;
+};
 
 enum class MeasurementStatus {
   kGood,
@@ -43,7 +42,7 @@ struct CheckedMeasurement {
                                        const Eigen::Matrix<double, 6, 6>& covariance,
                                        const MeasurementDefaults& defaults);
 
-// The same sight in another frame: covariances turn with it.
+// The measurement in another frame; its covariances are rotated too.
 [[nodiscard]] TagMeasurement operator*(const Eigen::Isometry3d& source_in_target,
                                        const TagMeasurement& measurement);
 

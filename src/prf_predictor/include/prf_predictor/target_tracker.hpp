@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows one target through sights, ghosts and gaps, and says where it will be: the front end of
-// any TargetPredictor, one of which has the position, another one the orientation.
+// Tracks one target through measurements, outliers and gaps, and forecasts it. One TargetPredictor
+// has its position, another of the same kind its orientation (rotation_predictor.hpp).
 //
-// For every image, in this order: predict to its stamp; take the sight nearest to the prediction;
-// if its Mahalanobis distance, by the covariance widened by gate_speed, passes the gate, correct
-// (the orientation has a gate of its own: a flipped one is dropped, the position kept). A sight
-// outside the gate starts a candidate, which replaces the target once `reacquire_hits` sights in a
-// row were consistent with it while none passed the gate. Without accepted sights the target coasts
-// with growing covariance; beyond `lost_after` it is lost, its belief stands still and only a
-// candidate brings it back.
+// For each image:
+//   1. Predict to its stamp. The measurement with the least Mahalanobis distance is tested by the
+//      gate, a chi-square bound on that distance. The innovation covariance is widened by
+//      (gate_speed * time since the last measurement)^2, for jerks that no motion model predicts.
+//   2. A measurement that passes corrects the position, and the orientation where that passes a
+//      gate of its own.
+//   3. A measurement outside the gate is an outlier. It starts a candidate target, which replaces
+//      the target after `reacquire_hits` consecutive images with a measurement that fits it.
+//   4. Without accepted measurements the target coasts with growing covariance. After `lost_after`
+//      it is lost: its belief stays as it is until a candidate replaces it.
 //
-// Images may come twice or late: the states of the last second are kept, a late image is put in
-// its place and what follows is computed again. The result depends on stamps alone.
+// The states of the last second are kept. An image that comes late is inserted at its stamp, and
+// the later ones are computed again. The result depends on stamps alone.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <prf_core/clock_monitor.hpp>
+#include <prf_core/forecast.hpp>
 #include <vector>
 
 #include "prf_predictor/rotation_predictor.hpp"
@@ -26,106 +30,93 @@
 
 namespace prf_predictor {
 
-using Nanoseconds = std::int64_t;
+using prf_core::Duration;
+using prf_core::Stamp;
+using prf_core::TargetStatus;
 
 struct TrackerParams {
-  double gate_probability = 0.0;  // that a true sight passes the gate, 0.5 .. 1, both excluded
-  double gate_speed = 0.0;        // m/s, >= 0, of jerks that no filter foresees; times the time
-                                  // since the last accepted sight it widens the gate
-  double orientation_gate_sigma = 0.0;  // rad, the same
+  double gate_probability = 0.0;        // that a true measurement passes the gate, > 0.5 and < 1
+  double gate_speed = 0.0;              // m/s, >= 0
+  double orientation_gate_sigma = 0.0;  // rad, >= 0, widens the gate of the orientation
   int reacquire_hits = 0;               // >= 2
-  double coast_after = 0.0;             // s without accepted sight, > 0
+  double coast_after = 0.0;             // s without accepted measurement, > 0
   double lost_after = 0.0;              // the same, > coast_after
+
+  // Throws std::invalid_argument naming the parameter, its value and its bound.
+  void validate() const;
 };
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const TrackerParams& params);
-
-enum class TrackStatus { kNoTarget, kTracking, kCoasting, kLost };
-
+// Shared by copies, never changed.
 struct Belief {
-  // Never changed once they are here.
   std::shared_ptr<const TargetPredictor> motion;
   std::shared_ptr<const RotationPredictor> rotation;
 };
 
 // The track right after one image.
 struct TrackState {
-  Nanoseconds stamp = 0;
-  TrackStatus status = TrackStatus::kNoTarget;
+  Stamp stamp{0};
+  TargetStatus status = TargetStatus::kNoTarget;
   std::optional<Belief> belief;
-  Nanoseconds last_accepted = 0;
+  Stamp last_accepted{0};
 
   struct Candidate {
     Belief belief;
-    Nanoseconds stamp = 0;  // of its latest sight
+    Stamp stamp{0};  // of its latest measurement
     int hits = 0;
   };
   std::optional<Candidate> candidate;
 
-  bool measured = false;         // this image gave a sight that passed the gate
-  double nis = 0.0;              // of the nearest sight's position, accepted or not
-  double orientation_nis = 0.0;  // of the accepted sight's orientation
-  bool gated = false;            // sights there were, none passed
+  bool measured = false;         // a measurement of this image passed the gate
+  double nis = 0.0;              // of the nearest measurement's position, accepted or not
+  double orientation_nis = 0.0;  // of the accepted measurement's orientation
+  bool gated = false;            // there were measurements, none passed
   bool orientation_gated = false;
   bool reacquired = false;
   bool reinitialised = false;  // the belief was no longer finite and was dropped
 };
 
-enum class Arrival { kInOrder, kDuplicate, kReplayed, kTooOld, kNewRun };
+// kReplayed: out of order, inserted. kTooOld: older than all states that are kept, dropped.
+enum class Arrival { kNewer, kDuplicate, kReplayed, kTooOld, kBackwardJump };
 
-struct Prediction {
-  double horizon = 0.0;  // s
-  PointForecast point;
-  OrientationForecast rotation;
+struct TrackerResult {
+  Arrival arrival = Arrival::kNewer;
+  TrackState state;  // at the image's stamp
 };
 
 class TargetTracker {
  public:
-  static constexpr Nanoseconds kHistory = 1'000'000'000;
+  static constexpr Duration kHistory = std::chrono::seconds(1);
 
-  // `predictor` is what every track starts from, before its begin().
+  // Every track starts from `predictor`, before its begin().
   TargetTracker(const TrackerParams& params, std::shared_ptr<const TargetPredictor> predictor);
 
-  struct Answer {
-    Arrival arrival = Arrival::kInOrder;
-    TrackState state;  // at the image's stamp
-  };
+  // All measurements of the target in this image, in the planning frame.
+  TrackerResult process(Stamp stamp, const std::vector<TagMeasurement>& measurements);
 
-  // `sights` are all of the target in this image, in the planning frame.
-  Answer process(Nanoseconds stamp, const std::vector<TagMeasurement>& sights);
-
-  // Empty when there is no belief.
-  [[nodiscard]] std::vector<Prediction> forecast(const TrackState& state,
-                                                 const std::vector<double>& horizons) const;
+  // At horizons in s; empty without a belief.
+  [[nodiscard]] std::vector<prf_core::TargetPrediction> forecast(
+      const TrackState& state, const std::vector<double>& horizons) const;
 
  private:
   struct Entry {
-    std::vector<TagMeasurement> sights;
+    std::vector<TagMeasurement> measurements;
     TrackState state;
   };
+  struct Correction;
 
-  // What a step may still change.
-  struct Moving {
-    std::unique_ptr<TargetPredictor> motion;
-    std::unique_ptr<RotationPredictor> rotation;
-
-    Moving(const Belief& before, double dt);
-    [[nodiscard]] bool is_finite() const;
-  };
-
-  [[nodiscard]] TrackState step(const TrackState& before, Nanoseconds stamp,
-                                const std::vector<TagMeasurement>& sights) const;
-  [[nodiscard]] Belief begin(const TagMeasurement& sight) const;
-  // unseen: time since the last accepted sight, s.
-  bool accept(Moving& target, const std::vector<TagMeasurement>& sights, double unseen,
-              TrackState& state) const;
-  void pursue_candidate(TrackState& state, const std::vector<TagMeasurement>& sights) const;
-  void settle_status(TrackState& state) const;
+  [[nodiscard]] TrackState step(const TrackState& before, Stamp stamp,
+                                const std::vector<TagMeasurement>& measurements) const;
+  [[nodiscard]] Belief begin(const TagMeasurement& measurement) const;
+  // since_measurement: since the last accepted one, s.
+  bool accept(Correction& target, const std::vector<TagMeasurement>& measurements,
+              double since_measurement, TrackState& state) const;
+  void update_candidate(TrackState& state, const std::vector<TagMeasurement>& measurements) const;
+  void update_status(TrackState& state) const;
 
   TrackerParams params_;
   std::shared_ptr<const TargetPredictor> predictor_;
   double gate_;
+  prf_core::ClockMonitor clock_{{kHistory}};
   std::deque<Entry> history_;
 };
 

@@ -19,10 +19,9 @@ struct SigmaPointParams {
 
   static SigmaPointParams paper() { return {1.0, 2e-6, 0.0}; }  // as the paper prints them
   static SigmaPointParams textbook() { return {0.5, 2.0, 0.0}; }
-};
 
-// Throws std::invalid_argument naming the parameter, its value and its bound.
-void validate(const SigmaPointParams& params);
+  void validate() const;
+};
 
 constexpr int kMostPoints = 2 * kMostStates + 1;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostPoints>;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predictors that fit the latest seconds of positions and go on from there. How sure they are is
-// what their own forecasts proved to be worth (ForecastLedger).
+// Predictors that fit a curve to the measured positions of the last seconds and extrapolate it.
+// Their covariance comes from the errors of their own past predictions (ForecastScorer).
 #pragma once
 
 #include <deque>
 #include <memory>
 #include <vector>
 
-#include "prf_predictor/forecast_ledger.hpp"
+#include "prf_predictor/forecast_scorer.hpp"
 #include "prf_predictor/target_predictor.hpp"
 
 namespace prf_predictor {
@@ -17,23 +17,23 @@ struct Sample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// A path fitted to samples of the past.
+// A curve fitted to past samples, at any time.
 class Continuation {
  public:
   virtual ~Continuation() = default;
   [[nodiscard]] virtual Eigen::Vector3d position(double time) const = 0;
 };
 
-// How to fit. `samples` are in the order of time and at least one.
+// How to fit. There is at least one sample; their times rise.
 class Extrapolation {
  public:
   virtual ~Extrapolation() = default;
-  [[nodiscard]] virtual double window() const = 0;  // s of samples that it wants
+  [[nodiscard]] virtual double window() const = 0;  // s of samples that it uses
   [[nodiscard]] virtual std::shared_ptr<const Continuation> fit(
       const std::deque<Sample>& samples) const = 0;
 };
 
-// The last position, for ever.
+// Stays at the last position.
 class Hold : public Extrapolation {
  public:
   [[nodiscard]] double window() const override { return 0.0; }
@@ -56,8 +56,9 @@ class Autoregressive : public Extrapolation {
   int order_;
 };
 
-// x(t) = m + sum_k c_k cos(W_k t) + s_k sin(W_k t): the frequencies are peaks of the periodogram of
-// what the earlier ones leave, common to the axes, refined by least squares.
+// x(t) = m + sum_k c_k cos(W_k t) + s_k sin(W_k t): the frequencies, common to
+// the axes, are found one after the other as peaks of the residual's periodogram and refined by
+// least squares.
 class Sines : public Extrapolation {
  public:
   Sines(double window, double count);  // s, > 0; a whole number 1 .. 8
@@ -85,8 +86,8 @@ class WindowPredictor : public TargetPredictor {
   std::shared_ptr<const Extrapolation> extrapolation_;
   std::deque<Sample> samples_;
   std::shared_ptr<const Continuation> path_;
-  ForecastLedger ledger_{1, 6.0};
-  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();  // of the latest sight
+  ForecastScorer scorer_{1, 6.0};
+  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();  // of the latest measurement
   double time_ = 0.0;                                // s since begin()
 };
 

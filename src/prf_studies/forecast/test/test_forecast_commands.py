@@ -34,17 +34,17 @@ class UnscentedKalmanFilter:
 """
 
 
-def swing(t):
+def wave(t):
     return 0.9 + 0.05 * math.sin(2.4 * t), 0.01 * math.sin(7.0 * t), 0.3
 
 
 def write_motion(path):
     with open(path, "w", encoding="utf-8") as file:
-        file.write("# a swing\ntime,x,y,z,qx,qy,qz,qw\n")
+        file.write("# a wave\ntime,x,y,z,qx,qy,qz,qw\n")
         for k in range(700):
             t = 0.01 * k
             half = 0.05 * math.sin(2.4 * t)
-            numbers = (t, *swing(t), 0.0, 0.0, math.sin(half), math.cos(half))
+            numbers = (t, *wave(t), 0.0, 0.0, math.sin(half), math.cos(half))
             file.write(",".join(f"{number:.9g}" for number in numbers) + "\n")
 
 
@@ -58,7 +58,7 @@ def write_bag(path, images):
             array, tag = TagDetectionArray(), TagDetection(family="tag36h11", id=0)
             array.header.stamp, array.header.frame_id = stamp, CAMERA
             position = tag.pose.pose.position
-            position.x, position.y, position.z = swing(k / 30)
+            position.x, position.y, position.z = wave(k / 30)
             tag.pose.pose.orientation.w = 1.0
             tag.pose.covariance = [1e-6 if i % 7 == 0 else 0.0 for i in range(36)]
             array.detections.append(tag)
@@ -112,14 +112,29 @@ class Commands(unittest.TestCase):
             self.assertEqual(figures["trials"], 1)
             for key in ("rms_error_m", "rms_orientation_error_rad"):
                 self.assertEqual(len(figures[key]), len(HORIZONS_S))
-        # Half a second ahead a swing of 0.05 m and one of 0.1 rad have moved as these have.
+        # Half a second ahead a wave of 0.05 m and one of 0.1 rad have moved as these have.
         rest = of_motion["hold"]
         self.assertTrue(0.03 < rest["rms_error_m"][2] < 0.06, rest)
         self.assertTrue(0.06 < rest["rms_orientation_error_rad"][2] < 0.12, rest)
         self.assertIn("periodic / paper at worst", printed)
 
-    def gated_sights(self, **changed):
-        """Of the motion, with other parameters of the node."""
+    def test_a_variant_has_the_parameters_that_it_names(self):
+        content, _ = self.figures("forecast_error", "--csv", self.motion, "--columns",
+                                  "time,x,y,z", "--warm-up", 1, "--predictors", "ukf", "--variant",
+                                  "same", "ukf", "acceleration_density=0.04", "--variant", "stiff",
+                                  "ukf", "acceleration_density=0.0001")
+        of_motion = content["conditions"]["motion.csv"]
+        self.assertEqual(of_motion["same"], of_motion["ukf"])
+        self.assertGreater(of_motion["stiff"]["rms_error_m"][0],
+                           2 * of_motion["ukf"]["rms_error_m"][0])
+        for variant, word in [(["x"], "--variant x"), (["x", "magic"], "magic"),
+                              (["x", "ukf", "magic=1"], "magic"),
+                              (["x", "ukf", "acceleration_density=a"], "NUMBER")]:
+            self.assert_refused("forecast_error", ["--csv", self.motion, "--columns", "time,x,y,z",
+                                                   "--variant", *variant], word)
+
+    def gated_measurements(self, **changed):
+        """Of the motion, with changed parameters of the node."""
         package = rospkg.RosPack().get_path("prf_predictor")
         with open(os.path.join(package, "config", "target_predictor.yaml"),
                   encoding="utf-8") as file:
@@ -127,17 +142,21 @@ class Commands(unittest.TestCase):
         with open(self.path("node.yaml"), "w", encoding="utf-8") as file:
             yaml.safe_dump(parameters, file)
         predictor = os.path.join(package, "config", "predictors", "ukf.yaml")
-        done = self.run_command("evaluate_predictor", self.path("node.yaml"), predictor, 1, 0,
-                                "0.1", "time,x,y,z", 1, self.motion)
+        done = self.run_command("evaluate_predictor", self.path("node.yaml"), predictor,
+                                self.motion, "--warm-up=1", "--horizons=0.1",
+                                "--columns=time,x,y,z", "--seeds=1")
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)["gated"]
 
     def test_evaluate_predictor_takes_the_gate_from_the_nodes_parameters(self):
-        self.assertEqual(self.gated_sights(), 0)
-        # Every second true sight fails a gate of probability 0.51.
-        self.assertGreater(self.gated_sights(gate_probability=0.51, gate_speed=0.0), 20)
-        self.assert_refused("evaluate_predictor", [self.path("nothing.yaml")] + 7 * ["1"],
-                            "nothing.yaml")
+        self.assertEqual(self.gated_measurements(), 0)
+        # Every second true measurement fails a gate of probability 0.51.
+        self.assertGreater(self.gated_measurements(gate_probability=0.51, gate_speed=0.0), 20)
+        predictor = os.path.join(rospkg.RosPack().get_path("prf_predictor"), "config",
+                                 "predictors", "ukf.yaml")
+        self.assert_refused("evaluate_predictor", [self.path("nothing.yaml"), predictor, self.motion,
+                                                   "--horizons=1", "--columns=time,x,y,z",
+                                                   "--seeds=1"], "nothing.yaml")
 
     def test_consistency_gives_nis_and_nees_with_their_bounds(self):
         content, _ = self.figures("consistency", "--csv", self.motion, "--columns", "time,x,y,z",
@@ -156,7 +175,7 @@ class Commands(unittest.TestCase):
         content, _ = self.figures("fit_noise", self.bag, "--predictor", "paper", "--out", out,
                                   "--measurement-scale", 1.0)
         before, after = content["before"], content["after"]
-        self.assertGreater(after["log_likelihood_per_sight"], before["log_likelihood_per_sight"])
+        self.assertGreater(after["log_likelihood_per_measurement"], before["log_likelihood_per_measurement"])
         self.assertEqual(len(after["rms_error_m"]), len(HORIZONS_S))
         self.assertEqual(after["measurement_scale"], 1.0)
         with open(out, encoding="utf-8") as file:
@@ -193,7 +212,7 @@ class Commands(unittest.TestCase):
                     (["--predictors", "magic"], "magic"), (["--motions", "wild"], "wild")]:
                 self.assert_refused(name, arguments, word)
         for arguments, word in [
-                ([], "--tag"), (["--magic", "1"], "--tag"), ([self.bag, "--tag", "x"], "--tag"),
+                ([], "BAG"), ([self.bag, "--magic=1"], "--magic"), ([self.bag, "--tag", "x"], "--tag"),
                 ([self.path("none.bag")], "none.bag"), ([few], "few.bag"),
                 ([self.bag, "--tag", "7"], "tag 7"), ([self.bag, "--predictor", "magic"], "magic"),
                 ([self.bag, "--predictor", "sines"], "sines"),

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What forecast_error and consistency share: motions to follow, and predictors that follow them."""
+"""What forecast_error and consistency share: motions, and predictors that track them."""
 import argparse
 import concurrent.futures
 import json
 import os
 import subprocess
 import sys
+import tempfile
 
 import roslib.packages
 import rospkg
+import yaml
 
 PREDICTOR, PACKAGE = "prf_predictor", "prf_studies"
 SIMULATOR, RECORDER = "platform_sim", "record_motion"
@@ -28,6 +30,24 @@ def config_file(*parts):
 
 def predictor_file(name):
     return config_file("predictors", name + ".yaml")
+
+
+def write_variant(folder, label, predictor, *changes):
+    """File of a predictor with some parameters changed, each NAME=VALUE."""
+    with open(predictor_file(predictor), encoding="utf-8") as file:
+        values = yaml.safe_load(file)
+    for change in changes:
+        name, _, value = change.partition("=")
+        if name not in values:
+            raise EvaluationError(f"--variant {label}: {predictor} has no parameter {name}")
+        try:
+            values[name] = float(value)
+        except ValueError:
+            raise EvaluationError(f"--variant {label}: {change}, must be {name}=NUMBER") from None
+    path = os.path.join(folder, label)
+    with open(path, "w", encoding="utf-8") as file:
+        yaml.safe_dump(values, file)
+    return path
 
 
 def predictor_names():
@@ -89,18 +109,27 @@ def record(folder, motion, gait, seed, duration):
     return path
 
 
-def follow(predictor, files, options, columns=COLUMNS):
-    """One dictionary of figures for each (seed, file): see evaluate_predictor."""
+def track(predictor, files, options, columns=COLUMNS):
+    """One dictionary of figures for each (seed, file), by the predictor of this file."""
     words = [executable(PACKAGE, "evaluate_predictor"), config_file("target_predictor.yaml"),
-             predictor_file(predictor), str(options.warm_up), str(options.latency),
-             ",".join(map(str, HORIZONS_S)), columns]
-    for seed, file in files:
-        words += [str(seed), file]
+             predictor, *(file for _, file in files),
+             f"--warm-up={options.warm_up}", f"--latency={options.latency}",
+             "--horizons=" + ",".join(map(str, HORIZONS_S)), f"--columns={columns}",
+             "--seeds=" + ",".join(str(seed) for seed, _ in files)]
     return [json.loads(line) for line in run(words).splitlines()]
 
 
-def evaluate(options):
-    """{(condition, predictor): figures}; a condition is "heavy, step" or a file's name."""
+def evaluate(options, variants=()):
+    """{(condition, predictor): figures}; a condition is "heavy, step" or a file's name. `variants`:
+    a label, a predictor and its changed parameters each."""
+    with tempfile.TemporaryDirectory() as folder:
+        predictors = {name: predictor_file(name) for name in options.predictors}
+        for label, *changes in variants:
+            predictors[label] = write_variant(folder, label, *changes)
+        return evaluate_files(options, predictors)
+
+
+def evaluate_files(options, predictors):
     if options.csv:
         conditions = {os.path.basename(path): [(1, path)] for path in options.csv}
         columns = options.columns
@@ -115,12 +144,12 @@ def evaluate(options):
             conditions.setdefault(f"{motion}, {gait}", []).append((seed, path))
         columns = COLUMNS
     # Slow predictors on few files each, so that all cores end together.
-    tasks = [(name, [file], options, columns) for files in conditions.values()
-             for name in options.predictors for file in files]
-    results = iter(side_by_side(follow, tasks, "forecasts", options.jobs))
+    tasks = [(predictor, [file], options, columns) for files in conditions.values()
+             for predictor in predictors.values() for file in files]
+    results = iter(side_by_side(track, tasks, "forecasts", options.jobs))
     figures = {}
     for condition, files in conditions.items():
-        for name in options.predictors:
+        for name in predictors:
             figures[condition, name] = [one for _ in files for one in next(results)]
     return figures
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/forecast_ledger.hpp"
+#include "prf_predictor/forecast_scorer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,72 +8,74 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kLongestGap = 0.1;     // s between sights that a position is interpolated over
-constexpr double kFirstEvidence = 0.3;  // s that the promise itself counts for at first
+constexpr double kLongestGap = 0.1;     // s between measurements that are interpolated
+constexpr double kFirstEvidence = 0.3;  // s that an inflation of 1 counts for at first
 constexpr double kTick = 1e-9;          // s
 
 }  // namespace
 
-ForecastLedger::ForecastLedger(Eigen::Index candidates, double memory) : memory_(memory) {
+ForecastScorer::ForecastScorer(Eigen::Index candidates, double memory) : memory_(memory) {
   for (Sums& sums : sums_) {
     sums.squared_error.setZero(candidates);
     sums.scored_until = -kHorizons.back();
   }
 }
 
-void ForecastLedger::observe(double time, const Eigen::Vector3d& position,
+void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
                              const Eigen::Vector3d& variance) {
-  const double passed = time - seen_time_;
-  if (has_seen_ && passed > 0) {
+  const double passed = time - measured_time_;
+  if (has_measurement_ && passed > 0) {
     const double fading = std::exp(-passed / memory_);
     for (std::size_t k = 0; k < kHorizons.size(); ++k) {
       Sums& sums = sums_[k];
       sums.evidence *= fading;
       sums.squared_error *= fading;
-      sums.excess *= fading;
+      sums.inflation *= fading;
       for (const auto& entry : entries_) {
         const double due = entry->time + kHorizons[k];
         if (entry->time <= sums.scored_until || due > time + kTick) continue;
         sums.scored_until = entry->time;
-        if (due < seen_time_ || passed > kLongestGap) continue;
+        if (due < measured_time_ || passed > kLongestGap) continue;
         const Eigen::Vector3d truth =
-            seen_position_ + (due - seen_time_) / passed * (position - seen_position_);
-        const Promise& promise = entry->promises[k];
+            measured_position_ + (due - measured_time_) / passed * (position - measured_position_);
+        const Prediction& prediction = entry->predictions[k];
         const double weight = entry->duration;
         sums.evidence += weight;
         sums.squared_error +=
-            weight * (promise.candidates.colwise() - truth).colwise().squaredNorm().array();
-        sums.excess += weight * ((promise.position - truth).array().square() - variance.array()) /
-                       promise.variance.array();
+            weight * (prediction.candidates.colwise() - truth).colwise().squaredNorm().array();
+        sums.inflation += weight *
+                          ((prediction.position - truth).array().square() - variance.array()) /
+                          prediction.variance.array();
       }
     }
   }
-  has_seen_ = true;
-  seen_time_ = time;
-  seen_position_ = position;
+  has_measurement_ = true;
+  measured_time_ = time;
+  measured_position_ = position;
   const double oldest = time - kHorizons.back() - kLongestGap;
   while (!entries_.empty() && entries_.front()->time < oldest) entries_.pop_front();
 }
 
-void ForecastLedger::promise(double time, Promises promises) {
+void ForecastScorer::record(double time, Predictions predictions) {
   const double duration = entries_.empty() ? 0.0 : time - entries_.back()->time;
   entries_.push_back(std::make_shared<const Entry>(
-      Entry{time, std::min(duration, kLongestGap), std::move(promises)}));
+      Entry{time, std::min(duration, kLongestGap), std::move(predictions)}));
 }
 
-ForecastLedger::Score ForecastLedger::score(std::size_t horizon) const {
+ForecastScorer::Score ForecastScorer::score(std::size_t horizon) const {
   const Sums& sums = sums_[horizon];
   Score score;
   score.evidence = sums.evidence;
   score.squared_error = sums.squared_error / std::max(sums.evidence, kTick);
   const double prior = kFirstEvidence * std::exp(-sums.evidence);
   const double errors = sums.evidence / kIndependent[horizon];
-  score.excess = (errors + 3) / (errors + 1) * (prior + sums.excess) / (prior + sums.evidence);
+  score.inflation =
+      (errors + 3) / (errors + 1) * (prior + sums.inflation) / (prior + sums.evidence);
   return score;
 }
 
 BetweenHorizons between_horizons(double horizon) {
-  const auto& all = ForecastLedger::kHorizons;
+  const auto& all = ForecastScorer::kHorizons;
   if (horizon <= all.front()) return {0, 0, 0.0};
   if (horizon >= all.back()) return {all.size() - 1, all.size() - 1, 0.0};
   const auto upper =

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares past predictions with the measurements that came due: which of several candidate models
+// predicts best at each horizon, and how large the real errors are beside the predicted covariance.
+//
+// A prediction made at t for the horizon h is due at t + h. Its error e is the difference to the
+// measured position, interpolated to t + h between two measurements. With d_j the time that
+// prediction j stands for (since the one before it) and m the memory, sums over all that are due,
+//   T   = sum_j d_j exp(-(now - due_j) / m)                        evidence, s
+//   E_i = 1 / T sum_j d_j exp(-(now - due_j) / m) |e_ij|^2         of candidate i
+//   G   = the same mean of (e_j^2 - r_j) / p_j, for each axis      covariance inflation
+// with r the variance of the measurement and p the predicted variance.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <memory>
+
+namespace prf_predictor {
+
+class ForecastScorer {
+ public:
+  static constexpr std::array<double, 5> kHorizons{0.1, 0.25, 0.5, 1.0, 2.0};  // s
+  // Errors of predictions that are so far apart in time count as independent, s.
+  static constexpr std::array<double, kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0, 1.5};
+
+  // For one horizon.
+  struct Prediction {
+    Eigen::Matrix3Xd candidates;                         // position by each candidate, m
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  // that the predictor published, m
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();  // predicted, of each axis, m^2
+  };
+  using Predictions = std::array<Prediction, kHorizons.size()>;
+
+  struct Score {
+    double evidence = 0.0;         // T, s
+    Eigen::ArrayXd squared_error;  // E, m^2
+    // G, times (n + 3) / (n + 1) for n = T / kIndependent errors, because a variance estimated from
+    // few errors is uncertain. Starts at 1. Negative when the errors are below the measurement
+    // noise.
+    Eigen::Array3d inflation = Eigen::Array3d::Ones();
+  };
+
+  ForecastScorer(Eigen::Index candidates, double memory);  // memory: m, s
+
+  // A measurement: the predictions that have come due are scored.
+  void observe(double time, const Eigen::Vector3d& position, const Eigen::Vector3d& variance);
+  // Predictions from `time`, after observe() of the same time.
+  void record(double time, Predictions predictions);
+
+  [[nodiscard]] Score score(std::size_t horizon) const;
+
+ private:
+  struct Entry {
+    double time = 0.0;
+    double duration = 0.0;  // s since the entry before
+    Predictions predictions;
+  };
+  struct Sums {
+    double evidence = 0.0;
+    Eigen::ArrayXd squared_error;
+    Eigen::Array3d inflation = Eigen::Array3d::Zero();
+    double scored_until = 0.0;  // predictions made until then are scored or never will be
+  };
+
+  double memory_;
+  bool has_measurement_ = false;
+  double measured_time_ = 0.0;
+  Eigen::Vector3d measured_position_ = Eigen::Vector3d::Zero();
+  std::deque<std::shared_ptr<const Entry>> entries_;
+  std::array<Sums, kHorizons.size()> sums_;
+};
+
+// The place of a horizon between two of the scorer's: a fraction of the way from the lower to the
+// upper one. Beyond the first and the last it is the nearest one.
+struct BetweenHorizons {
+  std::size_t lower = 0;
+  std::size_t upper = 0;
+  double fraction = 0.0;
+};
+
+[[nodiscard]] BetweenHorizons between_horizons(double horizon);
+
+}  // namespace prf_predictor

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/filter_bank.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace prf_predictor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// `count` values from first to last, neighbours at equal ratios.
+std::vector<double> geometric(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(first * std::pow(last / first, static_cast<double>(i) / (count - 1)));
+  }
+  return values;
+}
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+DisturbanceModel stepping(const PeriodicParams& p) {
+  DisturbanceModel model{
+      {p.drift_density_stepping, p.drift_time_constant},
+      {{p.wander_frequency, p.wander_damping_ratio, p.wander_amplitude_stepping},
+       {p.step_second_harmonic, p.step_harmonic_damping_ratio, p.step_second_harmonic_amplitude},
+       {p.step_third_harmonic, p.step_harmonic_damping_ratio, p.step_third_harmonic_amplitude}},
+      p.damping_ratio_stepping};
+  const double amplitude = p.step_amplitude / std::sqrt(p.step_count);
+  for (const double W : geometric(p.step_slowest, p.step_fastest, static_cast<int>(p.step_count))) {
+    model.oscillators.push_back({W, p.step_damping_ratio, amplitude});
+  }
+  return model;
+}
+
+DisturbanceModel calm(const PeriodicParams& p) {
+  return {{p.drift_density_calm, p.drift_time_constant},
+          {{p.wander_frequency, p.wander_damping_ratio, p.wander_amplitude_calm}},
+          p.damping_ratio_calm};
+}
+
+}  // namespace
+
+void FilterBank::Hypotheses::add_periodic(const PeriodicParams& params,
+                                          const DisturbanceModel& disturbance) {
+  // Components: 0 the drift, then the disturbance's oscillators, the platform's, and their doubles.
+  Components components{disturbance.drift, disturbance.oscillators};
+  std::vector<int> common(components.oscillators.size() + 1);
+  std::iota(common.begin(), common.end(), 0);
+  const auto add = [&](const std::vector<int>& more, std::vector<double> of_platform) {
+    std::vector<int> used = common;
+    used.insert(used.end(), more.begin(), more.end());
+    all.push_back({groups.size(), std::make_shared<std::vector<int>>(std::move(used)),
+                   std::move(of_platform), 0.0});
+  };
+
+  const int count = static_cast<int>(params.frequency_count);
+  const auto grid = geometric(params.slowest, params.fastest, count);
+  const int first = static_cast<int>(common.size());
+  for (const double multiple : {1.0, 2.0}) {
+    const double sigma = multiple == 1 ? params.platform_amplitude : params.harmonic_amplitude;
+    for (const double W : grid) {
+      components.oscillators.push_back({multiple * W, disturbance.damping_ratio, sigma});
+    }
+  }
+  for (int a = 0; a < count; ++a) {
+    add({first + a, first + count + a}, {grid[index(a)]});
+    for (int b = a + 1; b < count; ++b) {
+      add({first + a, first + b}, {grid[index(a)], grid[index(b)]});
+    }
+  }
+  groups.push_back(std::move(components));
+}
+
+void FilterBank::Hypotheses::add_aperiodic(const VelocityDecay& decay) {
+  all.push_back({groups.size(), std::make_shared<std::vector<int>>(1, 0), {}, 0.0});
+  groups.push_back({decay, {}});
+}
+
+std::shared_ptr<const FilterBank::Hypotheses> FilterBank::make_hypotheses(
+    const PeriodicParams& params) {
+  auto hypotheses = std::make_shared<Hypotheses>();
+  hypotheses->add_periodic(params, stepping(params));
+  hypotheses->add_periodic(params, calm(params));
+  const std::size_t periodic = hypotheses->all.size();
+  hypotheses->add_aperiodic({params.moving_density, kInfinity});
+  hypotheses->add_aperiodic({params.moving_density, params.long_time_constant});
+  hypotheses->add_aperiodic({params.moving_density, params.short_time_constant});
+  hypotheses->add_aperiodic({params.slow_density, params.long_time_constant});
+  hypotheses->add_aperiodic({params.resting_density, params.short_time_constant});
+  const std::size_t aperiodic = hypotheses->all.size() - periodic;
+  for (std::size_t i = 0; i < hypotheses->all.size(); ++i) {
+    hypotheses->all[i].prior = i < periodic
+                                   ? params.periodic_prior / static_cast<double>(periodic)
+                                   : params.aperiodic_prior / static_cast<double>(aperiodic);
+  }
+  return hypotheses;
+}
+
+FilterBank::FilterBank(const PeriodicParams& params) : hypotheses_(make_hypotheses(params)) {}
+
+FilterBank::Transitions FilterBank::transitions(double dt) const {
+  Transitions result;
+  for (const Components& group : hypotheses_->groups) result.push_back(group.transitions(dt));
+  return result;
+}
+
+void FilterBank::begin(const Eigen::Vector3d& position, double variance) {
+  beliefs_.clear();
+  for (const Hypothesis& hypothesis : hypotheses_->all) {
+    beliefs_.emplace_back(hypotheses_->groups[hypothesis.group], hypothesis.used, position,
+                          variance);
+  }
+}
+
+void FilterBank::advance(double dt) {
+  const Transitions over_dt = transitions(dt);
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].advance(over_dt[hypotheses_->all[i].group]);
+  }
+}
+
+void FilterBank::correct(const Eigen::Vector3d& position, double variance) {
+  for (SpectralBelief& belief : beliefs_) belief.correct(position, variance);
+}
+
+Eigen::Vector3d FilterBank::position(std::size_t i, const Transitions& transitions) const {
+  return beliefs_[i].position(transitions[hypotheses_->all[i].group]);
+}
+
+SpectralBelief::Forecast FilterBank::forecast(std::size_t i, const Transitions& transitions) const {
+  return beliefs_[i].forecast(transitions[hypotheses_->all[i].group]);
+}
+
+}  // namespace prf_predictor
