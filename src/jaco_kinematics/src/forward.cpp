@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <prf_core/require.hpp>
+#include <prf_core/se3.hpp>
 #include <string>
 
 #include "geometry.hpp"
@@ -146,18 +147,8 @@ Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& from,
                                             const Eigen::Isometry3d& to) {
   Eigen::Matrix<double, 6, 1> difference;
   difference.head<3>() = to.translation() - from.translation();
-  // Below a right angle from its sine, which is exact for small ones.
-  const Eigen::Vector3d sine = 0.5 * (from.linear().col(0).cross(to.linear().col(0)) +
-                                      from.linear().col(1).cross(to.linear().col(1)) +
-                                      from.linear().col(2).cross(to.linear().col(2)));
-  const double cosine = 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
-  if (cosine > 0.0) {
-    const double length = sine.norm();
-    difference.tail<3>() = length > 1e-8 ? std::asin(std::min(length, 1.0)) / length * sine : sine;
-    return difference;
-  }
-  const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
-  difference.tail<3>() = turn.angle() * turn.axis();
+  difference.tail<3>() =
+      prf_core::log_so3(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
   return difference;
 }
 

@@ -86,8 +86,7 @@ std::optional<ControlResult> ArmController::process(const TickJoiner::Joined& ti
 
   ControlResult result;
   result.stamp = tick.primary.stamp;
-  const double dt =
-      last_stamp_ ? 1e-9 * static_cast<double>((tick.primary.stamp - *last_stamp_).count()) : 0.0;
+  const double dt = last_stamp_ ? prf_core::to_seconds(tick.primary.stamp - *last_stamp_) : 0.0;
   last_stamp_ = tick.primary.stamp;
 
   const std::string reason = restart_reason(tick, dt);

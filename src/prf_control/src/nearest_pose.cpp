@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
+#include <prf_core/se3.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -56,9 +57,9 @@ std::vector<double> as_vector(const JointVector& q) { return {q.data(), q.data()
 }  // namespace
 
 ErrorVector pose_error(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
   ErrorVector error;
-  error << to.translation() - from.translation(), turn.angle() * turn.axis();
+  error << to.translation() - from.translation(),
+      prf_core::log_so3(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
   return error;
 }
 

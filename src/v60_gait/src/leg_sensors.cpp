@@ -2,6 +2,7 @@
 #include "v60_gait/leg_sensors.hpp"
 
 #include <cmath>
+#include <prf_core/se3.hpp>
 
 namespace v60_gait {
 namespace {
@@ -31,10 +32,7 @@ LegObservation LegSensors::measure(LegObservation truth) {
   truth.angular_velocity += draw(kGyroNoise);
   const double forgotten = period_ / kAttitudeMemory;
   attitude_error_ += -forgotten * attitude_error_ + draw(kAttitudeError * std::sqrt(2 * forgotten));
-  const double angle = attitude_error_.norm();
-  if (angle > 0.0) {
-    truth.attitude = truth.attitude * Eigen::AngleAxisd(angle, attitude_error_ / angle);
-  }
+  truth.attitude = truth.attitude * prf_core::exp_so3(attitude_error_);
   return truth;
 }
 

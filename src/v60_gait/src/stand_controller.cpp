@@ -2,6 +2,7 @@
 #include "stand_controller.hpp"
 
 #include <cmath>
+#include <prf_core/se3.hpp>
 
 namespace v60_gait {
 namespace {
@@ -33,7 +34,7 @@ LegVector StandController::torques(const LegObservation& observed) {
   attitude_.update(slope_.slope(), error.position.y(), duration);
   const auto& toes = feet.positions;
   const double yaw = yaw_of(toes[0] + toes[1] - toes[2] - toes[3]);
-  error.rotation = rotation_vector(observation.attitude, attitude_.attitude(yaw));
+  error.rotation = prf_core::rotation_between(observation.attitude, attitude_.attitude(yaw));
   error.angular_velocity = observation.attitude * observation.angular_velocity;
   return model_.torques(observation, feet, error);
 }

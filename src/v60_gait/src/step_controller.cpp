@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/se3.hpp>
 
 namespace v60_gait {
 namespace {
@@ -130,7 +131,7 @@ BodyError StepController::body_error(const LegObservation& observation, const Fe
     error.position.head<2>() *= kFactor * kFactor;
     error.velocity.head<2>() *= kFactor;
   }
-  error.rotation = rotation_vector(observation.attitude, attitude_.attitude(yaw_));
+  error.rotation = prf_core::rotation_between(observation.attitude, attitude_.attitude(yaw_));
   error.angular_velocity = observation.attitude * observation.angular_velocity;
   return error;
 }

@@ -58,9 +58,4 @@ Wrench VirtualModel::wrench(const BodyError& error) const {
   return wrench;
 }
 
-Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
-  const Eigen::AngleAxisd turn(to * from.inverse());
-  return turn.angle() * turn.axis();
-}
-
 }  // namespace v60_gait

@@ -48,8 +48,4 @@ class VirtualModel {
   std::array<Eigen::Vector3d, 4> forces_;  // N, of the last call: start of the next search
 };
 
-/// Rotation vector, rad, that turns `from` into `to`.
-[[nodiscard]] Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& from,
-                                              const Eigen::Quaterniond& to);
-
 }  // namespace v60_gait

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base_carrier.hpp"
 
+#include <prf_core/se3.hpp>
+
 #include "eigen_bullet.hpp"
 
 namespace platform_sim {
@@ -29,10 +31,10 @@ BaseCarrier::~BaseCarrier() { scene_.world().removeMultiBodyConstraint(constrain
 void BaseCarrier::move_to(const Eigen::Isometry3d& base) {
   const Eigen::Isometry3d now = robot_.frame(kBaseLink).pose;
   const double ahead = 1.0 / scene_.world().getSolverInfo().m_erp;
-  const Eigen::AngleAxisd turn(base.linear() * now.linear().transpose());
+  const Eigen::Vector3d turn =
+      prf_core::log_so3(Eigen::Quaterniond(base.linear() * now.linear().transpose()));
   Eigen::Isometry3d shown = Eigen::Isometry3d::Identity();
-  shown.linear() =
-      Eigen::AngleAxisd(ahead * turn.angle(), turn.axis()).toRotationMatrix() * now.linear();
+  shown.linear() = prf_core::exp_so3(ahead * turn).toRotationMatrix() * now.linear();
   shown.translation() = now.translation() + ahead * (base.translation() - now.translation());
   const btTransform frame = to_bullet(shown);
   constraint_->setPivotInB(frame.getOrigin());
