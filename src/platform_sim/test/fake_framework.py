@@ -13,13 +13,12 @@ import rospy
 import yaml
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from nav_msgs.msg import Odometry
-from prf_msgs.msg import (ContactArray, ExecutionProgress, SkillTrajectory, TagDetectionArray,
-                          TargetForecast)
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import CameraInfo, Image, JointState
 from std_srvs.srv import Trigger
-from trajectory_msgs.msg import (JointTrajectory, JointTrajectoryPoint,
-                                 MultiDOFJointTrajectory)
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint, MultiDOFJointTrajectory
+
+from prf_msgs.msg import ContactArray, ExecutionProgress, SkillTrajectory, TagDetectionArray, TargetForecast
 
 NODE = "/platform_sim"
 ARM = [f"j2s7s300_joint_{i}" for i in range(1, 8)]
@@ -87,7 +86,7 @@ class FakeFramework:
         self.mute, self.mute_from = mute, mute_from
         self.done_at, self.forecast = done_at, forecast
         self.positions = positions or config()["initial_positions"]
-        self.messages = {name: [] for name in OUTPUTS}
+        self.messages: dict[str, list] = {name: [] for name in OUTPUTS}
         self.digest = {name: hashlib.sha256() for name in OUTPUTS}
         silent = set(absent) | (set(INPUTS) - {"guide/wrench"} if guide else {"guide/wrench"})
         self.publishers = {

@@ -14,7 +14,7 @@ import rostest
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from fake_framework import ARM, NODE, FakeFramework, Simulator, config  # noqa: E402
+from fake_framework import ARM, NODE, FakeFramework, Simulator, config
 
 SHORT = {"time_limit": 0.5, "response_timeout": 5.0}
 

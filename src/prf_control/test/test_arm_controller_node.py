@@ -11,9 +11,10 @@ import rostest
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import Transform, Twist
-from prf_msgs.msg import ControlStatus
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
+
+from prf_msgs.msg import ControlStatus
 
 ARM = ['j2s7s300_joint_%d' % i for i in range(1, 8)]
 LEGS = ['fl_hip', 'fl_knee']

@@ -9,10 +9,11 @@ import sys
 import tempfile
 import unittest
 
-import prf_decision
 import rosbag
 import rospy
 import yaml
+
+import prf_decision
 from prf_msgs.msg import ExecutionProgress, TargetForecast, TargetPrediction
 
 COMMANDS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python")

@@ -7,10 +7,10 @@ import unittest
 import actionlib
 import rospy
 from geometry_msgs.msg import Pose
-from prf_msgs.msg import (ExecuteSkillAction, ExecutionProgress, SkillTrajectory, TargetForecast,
-                          TargetPrediction)
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import MultiDOFJointTrajectory
+
+from prf_msgs.msg import ExecuteSkillAction, ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
 
 FRAME = "j2s7s300_link_base"
 PIPELINE_DELAY = 60  # ms

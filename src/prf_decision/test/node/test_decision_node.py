@@ -11,11 +11,11 @@ import unittest
 import rospkg
 import rospy
 import rostest
+
 from prf_msgs.msg import ExecutionProgress
 
 sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
-from scripted_world import (FRAME, NODES, PIPELINE_DELAY, World, forecast,  # noqa: E402
-                            joint_state, milliseconds)
+from scripted_world import FRAME, NODES, PIPELINE_DELAY, World, forecast, joint_state, milliseconds
 
 
 def serialized(message):
@@ -69,8 +69,8 @@ class DecisionNode(unittest.TestCase):
         for seed in (1, 2, 3):
             draw = random.Random(seed)
             world.begin(start)
-            world.planner_delay = lambda: draw.uniform(0, 0.004)
-            self.assertTrue(world.play(0, 2000, skew=lambda: draw.randrange(-40, 150)), seed)
+            world.planner_delay = lambda draw=draw: draw.uniform(0, 0.004)
+            self.assertTrue(world.play(0, 2000, skew=lambda draw=draw: draw.randrange(-40, 150)), seed)
             runs.append([serialized(p) + serialized(s)
                          for p, s in zip(world.progress, world.setpoints)])
             self.assertEqual(len(runs[-1]), 200)

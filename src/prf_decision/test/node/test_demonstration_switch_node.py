@@ -14,11 +14,11 @@ import rospy
 import rostest
 import yaml
 from actionlib_msgs.msg import GoalStatus
-from prf_msgs.msg import (ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress,
-                          SkillTrajectory)
+
+from prf_msgs.msg import ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress, SkillTrajectory
 
 sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
-from scripted_world import PATIENCE, GoalTest, World  # noqa: E402
+from scripted_world import PATIENCE, GoalTest, World
 
 FIRST, SECOND = 0.0, 0.1  # m, where the skills end beside the target's axis
 # m per tick: the skills run at 0.32 m/s, on the approach across the target, a gap closes at 0.2 m/s
@@ -42,7 +42,7 @@ class PlannedWorld(World):
             parameters = yaml.safe_load(file)
         parameters["demonstration"] = os.path.join(folder, "first.csv")
         rospy.set_param("skill_planner", parameters)
-        self.plans = []
+        self.plans: list[SkillTrajectory] = []
         self.heard = rospy.Subscriber("skill/trajectory", SkillTrajectory, self.plans.append)
         super().__init__()
         self.start_planner()

@@ -14,13 +14,16 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
+
 from prf_msgs.msg import ExecuteSkillGoal, ExecuteSkillResult, ExecutionProgress
 
 sys.path.insert(0, os.path.join(rospkg.RosPack().get_path("prf_decision"), "test", "node"))
-from scripted_world import MISSING, PATIENCE, GoalTest, World  # noqa: E402
+from scripted_world import MISSING, PATIENCE, GoalTest, World
 
 
 class SkillActionNode(GoalTest):
+    feedback: list
+
     @classmethod
     def setUpClass(cls):
         cls.world = World()
@@ -92,7 +95,7 @@ class SkillActionNode(GoalTest):
                 handle = self.begin()
                 self.play(0.5)
                 handle.cancel()
-                self.wait(lambda: handle.get_goal_status() == GoalStatus.PREEMPTING)
+                self.wait(lambda handle=handle: handle.get_goal_status() == GoalStatus.PREEMPTING)
                 self.world.joint_speeds = {joint: speed}
                 self.play(0.9)
                 if waits:
