@@ -1,82 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/target_tracker.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <prf_core/chi_square.hpp>
-#include <prf_core/se3.hpp>
-#include <random>
 #include <string>
 
-#include "prf_predictor/kalman_predictor.hpp"
+#include "resting_target.hpp"
 
 namespace prf_predictor {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Duration kFrame = std::chrono::milliseconds(33);
-constexpr double kFrameSeconds = 0.033;
-const std::vector<double> kHorizons{0, 0.1, 0.5, 1.0, 2.0};
-const Eigen::Vector3d kHome(0.9, 0.05, 0.3);
-
-TrackerParams good_params() {
-  TrackerParams params;
-  params.gate_probability = 0.9999;
-  params.gate_speed = 0.15;
-  params.orientation_gate_sigma = 0.015;
-  params.reacquire_hits = 5;
-  params.coast_after = 0.15;
-  params.lost_after = 1.0;
-  return params;
-}
-
-TargetTracker make_tracker(VelocityDecay motion = {0.03, 0.6}) {
-  return {good_params(),
-          std::make_shared<KalmanPredictor>(std::make_shared<DecayingVelocity>(motion),
-                                            SigmaPointParams::textbook())};
-}
-
-Eigen::Vector3d position_of(const TrackState& state) {
-  return state.belief->motion->forecast(0).position;
-}
-
-Eigen::Quaterniond orientation_of(const TrackState& state) {
-  return state.belief->rotation->forecast(0).orientation;
-}
-
-double variance_of(const TrackState& state) {
-  return state.belief->motion->forecast(0).covariance(0, 0);
-}
-
-TagMeasurement measurement_at(const Eigen::Vector3d& position,
-                              const Eigen::Vector3d& rotation = Eigen::Vector3d::Zero()) {
-  TagMeasurement measurement;
-  measurement.position = position;
-  measurement.orientation = prf_core::exp_so3(rotation);
-  measurement.position_covariance = 1e-6 * Eigen::Matrix3d::Identity();
-  measurement.orientation_covariance = 2.5e-5 * Eigen::Matrix3d::Identity();
-  return measurement;
-}
-
-// Feeds `frames` images of a resting target, the last of which has the returned result.
-TrackerResult rest(TargetTracker& tracker, int frames, Stamp start = Stamp{0}) {
-  TrackerResult result;
-  for (int i = 0; i < frames; ++i) {
-    result = tracker.process(start + i * kFrame, {measurement_at(kHome)});
-  }
-  return result;
-}
-
-bool same(const TrackState& a, const TrackState& b) {
-  return a.stamp == b.stamp && a.status == b.status && a.nis == b.nis && a.measured == b.measured &&
-         a.belief.has_value() == b.belief.has_value() &&
-         (!a.belief || (position_of(a) == position_of(b) && variance_of(a) == variance_of(b) &&
-                        orientation_of(a).coeffs() == orientation_of(b).coeffs()));
-}
 
 TEST(TargetTracker, KnowsNoTargetUntilOneIsSeen) {
   auto tracker = make_tracker();
@@ -228,105 +162,6 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   EXPECT_TRUE(state.orientation_gated);
   EXPECT_GT(position_of(state).x(), kHome.x());
   EXPECT_LT(prf_core::log_so3(orientation_of(state)).norm(), 1e-3);
-}
-
-TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {
-  auto tracker = make_tracker();
-  auto reference = make_tracker();
-  const auto once = rest(tracker, 20);
-  rest(reference, 20);
-  const auto twice = tracker.process(19 * kFrame, {measurement_at({5, 5, 5})});
-  EXPECT_EQ(twice.arrival, Arrival::kDuplicate);
-  EXPECT_TRUE(same(twice.state, once.state));
-  EXPECT_TRUE(
-      same(tracker.process(20 * kFrame, {}).state, reference.process(20 * kFrame, {}).state));
-}
-
-TEST(TargetTracker, ReplaysLateImagesSoThatTheOrderOfArrivalDoesNotMatter) {
-  std::mt19937 random(6);
-  std::normal_distribution<double> noise(0, 1e-3);
-  std::vector<std::vector<TagMeasurement>> images;
-  for (int i = 0; i < 30; ++i) {
-    const double x = 0.1 * std::sin(2.4 * i * kFrameSeconds) + noise(random);
-    images.push_back(i % 7 == 3 ? std::vector<TagMeasurement>{}
-                                : std::vector{measurement_at(kHome + Eigen::Vector3d(x, 0, 0))});
-  }
-  auto in_order = make_tracker();
-  auto shuffled = make_tracker();
-  TrackState last_in_order;
-  TrackState last_shuffled;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    last_in_order = in_order.process(i * kFrame, images[i]).state;
-  }
-  std::vector<std::size_t> order(images.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::shuffle(order.begin() + 1, order.end(), random);
-  order.erase(std::find(order.begin(), order.end(), images.size() - 1));
-  order.push_back(images.size() - 1);
-  for (const std::size_t i : order) {
-    last_shuffled = shuffled.process(i * kFrame, images[i]).state;
-  }
-  EXPECT_TRUE(same(last_in_order, last_shuffled));
-}
-
-TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack) {
-  auto tracker = make_tracker();
-  const Stamp start = std::chrono::seconds(100);
-  const auto last = rest(tracker, 3, start);
-  const auto old = tracker.process(start - kFrame, {measurement_at(kHome)});
-  EXPECT_EQ(old.arrival, Arrival::kTooOld);
-  EXPECT_EQ(old.state.status, TargetStatus::kNoTarget);
-  EXPECT_TRUE(same(tracker.process(last.state.stamp, {}).state, last.state));
-  const auto anew = tracker.process(start - std::chrono::seconds(5), {});
-  EXPECT_EQ(anew.arrival, Arrival::kBackwardJump);
-  EXPECT_EQ(anew.state.status, TargetStatus::kNoTarget);
-}
-
-TEST(TargetTracker, StaysFiniteWithHalfOfTheImagesMissing) {
-  std::mt19937 random(12);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  std::normal_distribution<double> noise(0, 1e-3);
-  auto tracker = make_tracker();
-  double worst = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Eigen::Vector3d truth =
-        kHome + Eigen::Vector3d(0.02, 0.1, 0.05) * std::sin(2.4 * i * kFrameSeconds);
-    std::vector<TagMeasurement> measurements;
-    if (uniform(random) > 0.5) {
-      measurements.push_back(
-          measurement_at(truth + Eigen::Vector3d(noise(random), noise(random), 0)));
-    }
-    const auto state = tracker.process(i * kFrame, measurements).state;
-    if (!state.belief) continue;
-    ASSERT_TRUE(is_finite(state.belief->motion->forecast(0)));
-    if (i > 60) worst = std::max(worst, (position_of(state) - truth).norm());
-  }
-  EXPECT_LT(worst, 0.05);
-}
-
-TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
-  struct BadValue {
-    std::string name;
-    void (*spoil)(TrackerParams&);
-  };
-  const BadValue catalogue[] = {
-      {"orientation_gate_sigma", [](TrackerParams& p) { p.orientation_gate_sigma = NAN; }},
-      {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
-      {"gate_speed", [](TrackerParams& p) { p.gate_speed = -1; }},
-      {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},
-      {"coast_after", [](TrackerParams& p) { p.coast_after = NAN; }},
-      {"lost_after", [](TrackerParams& p) { p.lost_after = 0.1; }},
-  };
-  for (const auto& bad : catalogue) {
-    auto params = good_params();
-    bad.spoil(params);
-    try {
-      params.validate();
-      ADD_FAILURE() << bad.name << " was accepted";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()).rfind(bad.name + " = ", 0), 0u) << error.what();
-    }
-  }
 }
 
 }  // namespace
