@@ -81,20 +81,19 @@ CameraLens::CameraLens(const PinholeCamera& camera)
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector2d normalised = camera.to_normalised(Eigen::Vector2d(x, y));
-      Eigen::Matrix<double, 2, 3> sight;
-      sight << normalised,
-          camera.distortion_jacobian(normalised).inverse() * per_pixel.asDiagonal();
-      sights_.push_back(sight.cast<float>());
+      Eigen::Matrix<double, 2, 3> ray;
+      ray << normalised, camera.distortion_jacobian(normalised).inverse() * per_pixel.asDiagonal();
+      rays_.push_back(ray.cast<float>());
     }
   }
 }
 
-CameraLens::Sight CameraLens::sight(int x, int y) const {
-  if (sights_.empty()) {
+CameraLens::Ray CameraLens::ray(int x, int y) const {
+  if (rays_.empty()) {
     return {{(x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy},
             Eigen::Vector2d(1.0 / camera_.fx, 1.0 / camera_.fy).asDiagonal()};
   }
-  const auto& stored = sights_[static_cast<std::size_t>(y * camera_.width + x)];
+  const auto& stored = rays_[static_cast<std::size_t>(y * camera_.width + x)];
   return {stored.col(0).cast<double>(), stored.rightCols<2>().cast<double>()};
 }
 
@@ -111,7 +110,7 @@ Polygon2d CameraLens::outline(std::vector<Eigen::Vector3d> corners) const {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d a = corners[i].hnormalized();
     result.push_back(pixel(a));
-    if (sights_.empty()) continue;
+    if (rays_.empty()) continue;
     const Eigen::Vector2d b = corners[(i + 1) % corners.size()].hnormalized();
     const double pieces = std::ceil((b - a).norm() * camera_.fx / kPieceOfEdge);
     for (double k = 1.0; k < pieces; ++k) result.push_back(pixel(a + k / pieces * (b - a)));
@@ -150,12 +149,12 @@ void CameraCanvas::paint(const Print& print, const Eigen::Isometry3d& to_camera)
     unsigned char* row = image_.ptr(y);
     for (int x = begin; x < end; ++x) {
       // The map is projective; within a pixel its derivative at the centre stands for it.
-      const CameraLens::Sight sight = lens_.sight(x, y);
-      const Eigen::Vector3d point = to_cells * sight.normalised.homogeneous();
+      const CameraLens::Ray ray = lens_.ray(x, y);
+      const Eigen::Vector3d point = to_cells * ray.normalised.homogeneous();
       const Eigen::Vector2d cell = point.hnormalized();
       const Eigen::Matrix2d derivative =
           (to_cells.topLeftCorner<2, 2>() - cell * to_cells.bottomLeftCorner<1, 2>()) / point.z() *
-          sight.derivative;
+          ray.derivative;
       const unsigned char grey = print.texture.mean_over_pixel(cell, derivative);
       row[x] = coverage ? blend(row[x], grey, coverage[x - begin]) : grey;
     }

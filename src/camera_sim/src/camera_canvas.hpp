@@ -18,11 +18,11 @@ class CameraLens {
   explicit CameraLens(const PinholeCamera& camera);
 
   // The line of sight of a pixel's centre in normalised coordinates and its derivative.
-  struct Sight {
+  struct Ray {
     Eigen::Vector2d normalised;
     Eigen::Matrix2d derivative;
   };
-  [[nodiscard]] Sight sight(int x, int y) const;
+  [[nodiscard]] Ray ray(int x, int y) const;
 
   // Outline in the image of a plane, convex polygon of the optical frame, in coordinates that
   // start at the first pixel's corner; empty where it is out of view.
@@ -32,8 +32,8 @@ class CameraLens {
 
  private:
   PinholeCamera camera_;
-  std::vector<Eigen::Vector3d> view_planes_;  // inward normals of a pyramid that holds the view
-  std::vector<Eigen::Matrix<float, 2, 3>> sights_;  // row by row; empty without distortion
+  std::vector<Eigen::Vector3d> view_planes_;      // inward normals of a pyramid that holds the view
+  std::vector<Eigen::Matrix<float, 2, 3>> rays_;  // row by row; empty without distortion
 };
 
 class CameraCanvas {
