@@ -42,7 +42,7 @@ PrivateParameters::PrivateParameters(const XmlRpcValue& values) : PrivateParamet
 PrivateParameters::PrivateParameters(const XmlRpcValue& values, std::string prefix)
     : values_(values), prefix_(std::move(prefix)) {}
 
-void PrivateParameters::refuse(const std::string& key, XmlRpcValue value,
+void PrivateParameters::refuse(const std::string& key, const XmlRpcValue& value,
                                const std::string& must) const {
   std::ostringstream message;
   message << prefix_ << key << " = ";

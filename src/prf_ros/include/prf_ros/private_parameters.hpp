@@ -42,7 +42,7 @@ class PrivateParameters {
   PrivateParameters(const XmlRpc::XmlRpcValue& values, std::string prefix);
 
   XmlRpc::XmlRpcValue& at(const std::string& key);
-  [[noreturn]] void refuse(const std::string& key, XmlRpc::XmlRpcValue value,
+  [[noreturn]] void refuse(const std::string& key, const XmlRpc::XmlRpcValue& value,
                            const std::string& must) const;
   XmlRpc::XmlRpcValue& list(const std::string& key, const std::string& must);
 
