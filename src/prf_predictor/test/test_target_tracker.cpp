@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <prf_core/chi_square.hpp>
+#include <random>
 #include <string>
 
 #include "resting_target.hpp"
