@@ -57,7 +57,8 @@ std::vector<Eigen::Vector3d> planes_around_view(const PinholeCamera& camera) {
 unsigned char blend(unsigned char below, unsigned char above, float coverage) {
   const float value = static_cast<float>(below) +
                       coverage * (static_cast<float>(above) - static_cast<float>(below));
-  return static_cast<unsigned char>(value + 0.5F);
+  // Half up in single precision; lround would change single grey levels of all recorded images.
+  return static_cast<unsigned char>(value + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
 }
 
 std::vector<Eigen::Vector3d> seen_from(const Eigen::Isometry3d& to_camera,

@@ -89,7 +89,7 @@ Eigen::Vector2d PinholeCamera::to_pixel(const Eigen::Vector2d& normalised) const
 }
 
 Eigen::Vector2d PinholeCamera::to_normalised(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d seen((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  Eigen::Vector2d seen((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (!distorts()) return seen;
   Eigen::Vector2d normalised = seen;
   for (int i = 0; i < kNewtonSteps; ++i) {

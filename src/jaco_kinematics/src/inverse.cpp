@@ -121,7 +121,7 @@ std::optional<JointVector> any_solution(const Eigen::Isometry3d& pose, const Elb
     for (const Arc& arc : feasible_arcs(circle, elbow, pose.linear().col(2), kArcSlack)) {
       for (int i = 0; i < samples; ++i) {
         const double phi = arc.begin + (i + 0.5) / samples * (arc.end - arc.begin);
-        if (const auto q = any_branch(pose, phi, elbow)) return q;
+        if (auto q = any_branch(pose, phi, elbow)) return q;
       }
     }
   }

@@ -45,7 +45,7 @@ bool is_covariance(const StateMatrix& matrix) {
 }
 
 StateMatrix repaired(const StateMatrix& covariance) {
-  const StateMatrix symmetric = 0.5 * (covariance + covariance.transpose());
+  StateMatrix symmetric = 0.5 * (covariance + covariance.transpose());
   if (cholesky(symmetric)) return symmetric;
   const Eigen::SelfAdjointEigenSolver<StateMatrix> eigen(symmetric);
   const double floor = kSmallestEigenvalue * eigen.eigenvalues().cwiseAbs().maxCoeff();

@@ -300,9 +300,7 @@ std::size_t run(const Study& study) {
   return falls;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
   CLI::App app{
       "Compares how the simulated robot moves on the platform with motion capture of the real "
       "one."};
@@ -310,6 +308,14 @@ int main(int argc, char** argv) {
     return run(read_options(app, argc, argv)) == 0 ? 0 : 1;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return command(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "validate_motion: " << error.what() << "\n";
     return 2;
