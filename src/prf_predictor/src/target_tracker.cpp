@@ -4,32 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-
+#include <prf_core/chi_square.hpp>
 #include <prf_core/require.hpp>
 #include <prf_core/se3.hpp>
+#include <utility>
+
 #include "prf_predictor/gaussian.hpp"
 
 namespace prf_predictor {
 
 using prf_core::require;
+using prf_core::to_seconds;
+
 namespace {
-
-double seconds(Duration duration) { return 1e-9 * static_cast<double>(duration.count()); }
-
-double chi_square_quantile_3(double p) {
-  // F(x) = erf(sqrt(x / 2)) - sqrt(2 x / pi) exp(-x / 2)
-  const auto cdf = [](double x) {
-    return std::erf(std::sqrt(x / 2)) - std::sqrt(2 * x / M_PI) * std::exp(-x / 2);
-  };
-  double low = 0.0;
-  double high = 100.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (cdf(middle) < p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 struct Nearest {
   const TagMeasurement* measurement = nullptr;
@@ -87,7 +74,7 @@ TargetTracker::TargetTracker(const TrackerParams& params,
     : params_(params), predictor_(std::move(predictor)) {
   params_.validate();
   require(predictor_ != nullptr, "predictor", "null", "given");
-  gate_ = chi_square_quantile_3(params.gate_probability);
+  gate_ = prf_core::chi_square_quantile(3, params.gate_probability);
 }
 
 // A belief at a new time, which a measurement may still change.
@@ -149,13 +136,13 @@ TrackState TargetTracker::step(const TrackState& before, Stamp stamp,
   state.last_accepted = before.last_accepted;
   state.candidate = before.candidate;
 
-  const bool is_lost = seconds(stamp - state.last_accepted) > params_.lost_after;
+  const bool is_lost = to_seconds(stamp - state.last_accepted) > params_.lost_after;
   if (state.belief && !is_lost) {
-    Correction target(*state.belief, seconds(stamp - before.stamp));
+    Correction target(*state.belief, to_seconds(stamp - before.stamp));
     state.reinitialised = !target.is_finite();
     state.belief.reset();
     if (!state.reinitialised) {
-      state.measured = accept(target, measurements, seconds(stamp - state.last_accepted), state);
+      state.measured = accept(target, measurements, to_seconds(stamp - state.last_accepted), state);
       state.belief = Belief{std::move(target.motion), std::move(target.rotation)};
     }
   }
@@ -207,9 +194,10 @@ bool TargetTracker::accept(Correction& target, const std::vector<TagMeasurement>
 void TargetTracker::update_candidate(TrackState& state,
                                      const std::vector<TagMeasurement>& measurements) const {
   auto& candidate = state.candidate;
-  if (candidate && seconds(state.stamp - candidate->stamp) > params_.lost_after) candidate.reset();
+  if (candidate && to_seconds(state.stamp - candidate->stamp) > params_.lost_after)
+    candidate.reset();
   if (candidate) {
-    const double since_measurement = seconds(state.stamp - candidate->stamp);
+    const double since_measurement = to_seconds(state.stamp - candidate->stamp);
     Correction target(candidate->belief, since_measurement);
     TrackState of_candidate;
     if (accept(target, measurements, since_measurement, of_candidate)) {
@@ -230,7 +218,7 @@ void TargetTracker::update_candidate(TrackState& state,
 }
 
 void TargetTracker::update_status(TrackState& state) const {
-  const double gap = seconds(state.stamp - state.last_accepted);
+  const double gap = to_seconds(state.stamp - state.last_accepted);
   if (!state.belief) {
     state.status = TargetStatus::kNoTarget;
   } else if (gap > params_.lost_after) {
