@@ -17,7 +17,7 @@
 //
 // Metres, radians. Joints 1, 3, 5 and 7 are continuous; 2, 4 and 6 lie in [0, 2 pi).
 // All functions are pure. They throw std::invalid_argument for input that is not finite and for a
-// pose whose rotation is none.
+// pose whose rotation is not orthonormal to 1e-6.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,7 +47,8 @@ Jacobian jacobian(const JointVector& q);
 double arm_angle(const JointVector& q);
 
 struct IkSolution {
-  int branch;                // 4 * shoulder + 2 * elbow + wrist, each 0 or 1
+  int branch;                // 4 * shoulder + 2 * elbow + wrist, each 0 or 1; shoulder is 0 for q2
+                             // in [0, pi], wrist is 0 for q6 in [0, pi]
   JointVector q;             // continuous joints in (-pi, pi], the others in [0, 2 pi)
   bool within_limits;        // of joints 2, 4 and 6
   double position_error;     // [m]
@@ -59,8 +60,9 @@ std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, doub
 
 enum class IkStatus { kSolved, kOutOfReach, kNoSolutionWithinLimits };
 
-// inverse() returns the solution of least cost: squared distance from the seed, and beside it a
-// small penalty near the joint limits.
+// The cost of a solution is its squared distance from the seed plus a small penalty near the joint
+// limits. inverse() seeks the least cost, but does not guarantee it: it returns the local minimum
+// if that is within 0.35 rad of the seed, otherwise the cheapest of at most 4 solutions.
 struct IkParams {
   // Squared distance is sum_i weight_i (q_i - seed_i)^2. The default measures time of travel
   // relative to the slowest joints: (36 deg/s / 48 deg/s)^2 = 0.5625.
@@ -80,14 +82,14 @@ struct IkParams {
 
 struct IkResult {
   IkStatus status;
-  JointVector q;             // the seed if not solved
+  JointVector q;             // if not solved: the seed (inverse), pi for all joints (any_inverse)
   double arm_angle;          // [rad] of q
   double position_error;     // [m] of q
   double orientation_error;  // [rad] of q
 };
 
-// The solution of least cost within limits, continuous joints in the seed's turn. kSolved means
-// errors below 1e-9.
+// The solution of least cost within limits (see IkParams), continuous joints in the seed's turn.
+// kSolved means that the errors are below 1e-9 m and 1e-9 rad.
 [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
                                const IkParams& params = IkParams());
 
