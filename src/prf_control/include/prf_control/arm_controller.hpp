@@ -3,8 +3,8 @@
 //
 // Each set of measured joints is a control tick. It is joined with the set-point of the same stamp
 // (tick_joiner.hpp), and the follower (setpoint_follower.hpp) computes the command of that tick.
-// The results come in the order of the ticks and depend only on the data, not on how the two
-// streams interleave.
+// One call may return no result or several. The results come in the order of the ticks and depend
+// only on the data, not on how the two streams interleave.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct ArmControllerParams {
 
 enum class ControlCode : std::uint8_t {  // as prf_msgs/ControlStatus
   kFollowing = 0,
-  kHolding = 1,
+  kHolding = 1,  // asked for, or the measured joints are not finite, or a restart
   kLimited = 2,
   kUnreachable = 3,
-  kStaleSetpoint = 4,
+  kStaleSetpoint = 4,  // the tick has no set-point, also when none has ever come
   kInvalidSetpoint = 5
 };
 

@@ -22,6 +22,7 @@ struct Setpoint {
 
 // kPose, or kInvalid when a number is not finite or beyond any arm (1 km, 1 km/s, 1000 rad/s), or
 // the quaternion (x, y, z, w) is not of unit length within 1 %; within that it is normalised.
+// prf_core is stricter (1e-3).
 [[nodiscard]] Setpoint checked_setpoint(const Eigen::Vector3d& position,
                                         const Eigen::Vector4d& quaternion,
                                         const Eigen::Vector3d& linear_velocity,

@@ -43,7 +43,7 @@ struct FollowerParams {
 inline constexpr double kBranchChangeSpeed = 0.25;
 
 // [rad/s] Speed of the null-space drift, norm of all joints; less where the acceleration limit
-// asks for it. Ours: README of jaco_kinematics says what it gains.
+// asks for it. docs/results/kinematics.md says what the drift gains.
 inline constexpr double kNullSpaceSpeed = 0.04;
 
 struct PoseSetpoint {
