@@ -50,8 +50,8 @@ struct ControllerCounts {
   std::uint64_t ticks = 0;
   std::uint64_t faulty_joints = 0;
   std::uint64_t invalid_setpoints = 0;
-  std::uint64_t refused_jumps = 0;
-  std::uint64_t branch_changing = 0;  // ticks
+  std::uint64_t refused_jumps = 0;    // ticks at which a change of branch was refused
+  std::uint64_t branch_changing = 0;  // ticks at which the arm changed branch
   std::uint64_t restarts = 0;
 };
 
@@ -61,6 +61,7 @@ class ArmController {
   explicit ArmController(const ArmControllerParams& params);
 
   // Another share of the velocity limits and another acceleration limit, from the next tick on.
+  // Throws std::invalid_argument for values that FollowerParams::validate() refuses.
   void tune(double velocity_scale, double acceleration);
 
   std::vector<ControlResult> add_joints(const JointSample& joints);

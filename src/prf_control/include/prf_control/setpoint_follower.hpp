@@ -29,7 +29,7 @@ struct FollowerParams {
   double velocity_scale;      // share of the URDF's joint velocity limits, (0, 1]
   double acceleration;        // [rad/s^2] of every joint, > 0
   double max_joint_step;      // [rad], > 0
-  double far_position;        // [m], > 0; a set-point farther from the last one is a new task
+  double far_position;        // [m], > 0; from the last set-point; beyond it all joints go together
   double far_orientation;     // [rad], > 0, < pi; likewise
   double damping;             // of the Jacobian step, (0, 1]
   double orientation_weight;  // [m/rad], > 0; see nearest_pose.hpp
@@ -38,8 +38,8 @@ struct FollowerParams {
   void validate() const;
 };
 
-// Share of the velocity limits for a change of branch. Ours: the hand leaves its path meanwhile, so
-// it is slow.
+// Share of the velocity limits for a change of branch (of the inverse kinematics). The motion is
+// slow because the hand leaves its path meanwhile.
 inline constexpr double kBranchChangeSpeed = 0.25;
 
 // [rad/s] Speed of the null-space drift, norm of all joints; less where the acceleration limit
@@ -65,8 +65,9 @@ struct FollowerStep {
   LimitedStep motion;                // the command, and the limit that shaped it
   double position_deviation = 0;     // [m], set-point to forward(command); 0 when holding
   double orientation_deviation = 0;  // [rad]
-  int jump_joint = -1;               // whose jump was refused, or which is farthest from its goal
-  double jump = 0;                   // [rad]
+  // Joint of the refused jump, or the farthest from its goal while the branch changes.
+  int jump_joint = -1;
+  double jump = 0;  // [rad]
 };
 
 class SetpointFollower {
@@ -75,11 +76,12 @@ class SetpointFollower {
 
   // At rest at `measured`, moved inside the joint limits; forgets everything else.
   void start(const JointVector& measured);
-  void reset();
+  void reset();  // as constructed: not started
   [[nodiscard]] bool started() const { return state_.has_value(); }
   [[nodiscard]] const MotionState& state() const { return state_.value(); }
 
-  // Other parameters from the next step on; a motion above new velocity limits brakes down to them.
+  // Other parameters from the next step on, std::invalid_argument if validate() refuses them; a
+  // motion above new velocity limits brakes down to them.
   void tune(const FollowerParams& params);
 
   // Both need started(); std::invalid_argument for non-finite set-points or dt <= 0.
