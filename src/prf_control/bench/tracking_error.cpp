@@ -107,9 +107,9 @@ Row measure(const std::string& name, const Sway& sway, const BenchmarkParams& pa
     const prf_core::Stamp stamp = i * std::chrono::milliseconds(10);
     controller.add_joints({stamp, arm.position, ""});
     const ControlResult result = controller.add_setpoint(stamp, setpoint).front();
-    row.within_limits = row.within_limits && keeps_limits(before, result.command, params);
-    before = result.command;
-    arm.run(result.command);
+    row.within_limits = row.within_limits && keeps_limits(before, *result.command, params);
+    before = *result.command;
+    arm.run(*result.command);
     if (i < ticks / 5) continue;
     const double later = now + ServoArm::kPeriod;
     const auto error = pose_error(forward(arm.position), target_at(sway, later).hand_in_base);

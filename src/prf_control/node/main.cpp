@@ -65,7 +65,7 @@ class ArmControllerNode {
   void publish(const std::vector<ControlResult>& results,
                std::chrono::steady_clock::time_point begin) {
     for (const ControlResult& result : results) {
-      command_.publish(command_message(result, joint_names_));
+      if (result.command) command_.publish(command_message(result, joint_names_));
       status_.publish(status_message(result));
       log(result);
       last_ = result;

@@ -55,7 +55,7 @@ trajectory_msgs::JointTrajectory command_message(const ControlResult& result,
   message.joint_names = joint_names;
   message.points.resize(1);
   auto& point = message.points.front();
-  const auto& [position, velocity] = result.command;
+  const auto& [position, velocity] = result.command.value();
   point.positions.assign(position.data(), position.data() + position.size());
   point.velocities.assign(velocity.data(), velocity.data() + velocity.size());
   point.time_from_start = ros::Duration(0, 10'000'000);  // one control tick
@@ -69,7 +69,8 @@ prf_msgs::ControlStatus status_message(const ControlResult& result) {
                 Status::LIMITED == static_cast<int>(ControlCode::kLimited) &&
                 Status::UNREACHABLE == static_cast<int>(ControlCode::kUnreachable) &&
                 Status::STALE_SETPOINT == static_cast<int>(ControlCode::kStaleSetpoint) &&
-                Status::INVALID_SETPOINT == static_cast<int>(ControlCode::kInvalidSetpoint));
+                Status::INVALID_SETPOINT == static_cast<int>(ControlCode::kInvalidSetpoint) &&
+                Status::FAILING == static_cast<int>(ControlCode::kFailing));
   Status message;
   message.header.stamp = prf_ros::to_ros_time(result.stamp);
   message.code = static_cast<std::uint8_t>(result.code);

@@ -4,19 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
-#include <sstream>
 
+#include "prf_control/command_gate.hpp"
 #include "prf_control/nearest_pose.hpp"
+#include "reasons.hpp"
 
 namespace prf_control {
 namespace {
 
-// [s] 1000 ticks at 100 Hz, which is what the joiner keeps.
-constexpr double kLongestWait = 10.0;
-
 ControlCode code_of(const FollowerStep& step) {
   if (step.goal == GoalKind::kNearest) return ControlCode::kUnreachable;
-  if (step.goal == GoalKind::kJumpRefused || step.goal == GoalKind::kChangesBranch) {
+  if (step.goal == GoalKind::kJumpRefused || step.goal == GoalKind::kChangesBranch ||
+      step.goal == GoalKind::kInside) {
     return ControlCode::kLimited;
   }
   const bool slowed =
@@ -29,18 +28,12 @@ const ArmControllerParams& validated(const ArmControllerParams& params) {
   return params;
 }
 
-// Continuous joints may be reported in another turn than they are commanded in.
-double tracking_error(double measured, double commanded, bool continuous) {
-  const double error = measured - commanded;
-  return std::abs(continuous ? std::remainder(error, 2.0 * M_PI) : error);
-}
-
 }  // namespace
 
 void ArmControllerParams::validate() const {
   follower.validate();
-  prf_core::require_positive_up_to("max_tracking_error", max_tracking_error, M_PI, "rad");
-  prf_core::require_positive_up_to("max_wait", max_wait, kLongestWait, "s");
+  prf_core::require_between("max_tracking_error", max_tracking_error, 0.01, 1.0, "rad");
+  prf_core::require_between("max_wait", max_wait, 0.02, 5.0, "s");
 }
 
 ArmController::ArmController(const ArmControllerParams& params)
@@ -69,88 +62,121 @@ std::vector<ControlResult> ArmController::add_setpoint(prf_core::Stamp stamp,
 
 std::vector<ControlResult> ArmController::process_joined_ticks() {
   std::vector<ControlResult> results;
-  while (const auto tick = joiner_.next()) {
-    if (const auto result = process(*tick)) results.push_back(*result);
-  }
+  while (const auto joined = joiner_.next()) results.push_back(process(*joined));
   return results;
 }
 
-std::optional<ControlResult> ArmController::process(const TickJoiner::Joined& tick) {
+struct ArmController::Tick {
+  std::optional<JointVector> reported;
+  std::optional<JointVector> measured;  // unwrapped
+  std::string fault;                    // why the arm must not be moved
+  std::optional<Setpoint> setpoint;
+  double gap = 0.0;  // [s] since the tick before
+  double dt = 0.0;   // the same, at most max_wait
+
+  [[nodiscard]] bool has_pose() const { return setpoint && setpoint->kind == SetpointKind::kPose; }
+};
+
+ArmController::Tick ArmController::tick_of(const TickJoiner::Joined& joined) {
+  const prf_core::Stamp stamp = joined.primary.stamp;
+  Tick tick;
+  tick.setpoint = joined.secondary;
+  tick.gap = last_stamp_ ? prf_core::to_seconds(stamp - *last_stamp_) : 0.0;
+  tick.dt = std::min(tick.gap, params_.max_wait);
+  last_stamp_ = stamp;
+  tick.fault = joined.primary.fault;
+  if (!joined.primary.position) {
+    if (tick.fault.empty()) tick.fault = "joint positions are not known";
+    return tick;
+  }
+  std::optional<JointVector> last_command;
+  if (follower_.started()) last_command = follower_.state().position;
+  tick.reported = joined.primary.position;
+  tick.measured = unwrapped(*tick.reported, last_command);
+  int joint = 0;
+  if (joints_outside(*tick.measured).maxCoeff(&joint) > kFarOutside) {
+    tick.fault = reasons().outside(*tick.measured, joint) + ": is not moved from there";
+  }
+  return tick;
+}
+
+Reasons ArmController::reasons() const { return {params_.joint_prefix}; }
+
+ControlResult ArmController::process(const TickJoiner::Joined& joined) {
   ++counts_.ticks;
-  if (tick.new_run) {
+  if (joined.new_run) {
     follower_.reset();
     last_stamp_.reset();
+    measured_.reset();
   }
-  if (!tick.primary.position) ++counts_.faulty_joints;
-  if (!tick.primary.position && !follower_.started()) return std::nullopt;
+  const Tick tick = tick_of(joined);
+  if (!tick.fault.empty()) ++counts_.faulty_joints;
+  if (tick.measured) measured_ = tick.measured;
 
   ControlResult result;
-  result.stamp = tick.primary.stamp;
-  const double dt = last_stamp_ ? prf_core::to_seconds(tick.primary.stamp - *last_stamp_) : 0.0;
-  last_stamp_ = tick.primary.stamp;
-
-  const std::string reason = restart_reason(tick, dt);
-  if (reason.empty()) {
-    follow_or_hold(tick, std::min(dt, params_.max_wait), result);
-  } else {
-    restart(*tick.primary.position, reason, result);
+  result.stamp = joined.primary.stamp;
+  std::optional<MotionState> last;
+  if (follower_.started()) last = follower_.state();
+  const std::string reason = restart_reason(tick);
+  if (!reason.empty()) {
+    restart(tick, reason, result);
+  } else if (last) {
+    follow_or_hold(tick, result);
   }
-  result.command = follower_.state();
+  if (!tick.fault.empty()) {
+    result.code = ControlCode::kFailing;
+    result.reason = tick.fault;
+  }
+  if (follower_.started()) pass_gate(tick, last, result);
+  measure_error(tick, last, result);
   return result;
 }
 
-std::string ArmController::restart_reason(const TickJoiner::Joined& tick, double dt) const {
-  if (!tick.primary.position) return "";
+std::string ArmController::restart_reason(const Tick& tick) const {
+  if (!tick.measured) return "";
   if (!follower_.started()) return "first joint positions of the run";
-  std::ostringstream text;
-  if (dt > params_.max_wait) {
-    text << "joint_states jumped forward by " << dt << " s, bound " << params_.max_wait << " s";
-    return text.str();
-  }
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
-  for (int i = 0; i < 7; ++i) {
-    const double error = tracking_error((*tick.primary.position)[i], follower_.state().position[i],
-                                        std::isinf(limits.upper[i]));
-    if (error <= params_.max_tracking_error) continue;
-    text << name(i) << " is " << error << " rad from its command, bound "
-         << params_.max_tracking_error << " rad";
-    return text.str();
-  }
-  return "";
+  if (tick.gap > params_.max_wait) return reasons().leap(tick.gap, params_.max_wait);
+  int joint = 0;
+  const JointVector lag = (*tick.measured - follower_.state().position).cwiseAbs();
+  if (lag.maxCoeff(&joint) <= params_.max_tracking_error) return "";
+  return reasons().lag(joint, lag[joint], params_.max_tracking_error);
 }
 
-void ArmController::restart(const JointVector& measured, const std::string& reason,
-                            ControlResult& result) {
+void ArmController::restart(const Tick& tick, const std::string& reason, ControlResult& result) {
   ++counts_.restarts;
-  follower_.start(measured);
+  follower_.start(*tick.measured);
   result.restarted = true;
-  result.reason = "starts from the measured joints: " + reason;
+  result.reason = "starts from the measured joints: " + reason +
+                  reasons().turns(*tick.reported, *tick.measured);
+  int joint = 0;
+  if (joints_outside(*tick.measured).maxCoeff(&joint) > 0.0) {
+    result.reason += "; " + reasons().outside(*tick.measured, joint);
+  }
 }
 
-void ArmController::follow_or_hold(const TickJoiner::Joined& tick, double dt,
-                                   ControlResult& result) {
-  Eigen::Isometry3d wanted;
-  if (tick.primary.position && tick.secondary && tick.secondary->kind == SetpointKind::kPose) {
-    follow(tick.secondary->pose, dt, result);
-    wanted = tick.secondary->pose.hand_in_base;
+void ArmController::follow_or_hold(const Tick& tick, ControlResult& result) {
+  if (tick.fault.empty() && tick.has_pose()) {
+    follow(tick.setpoint->pose, tick.dt, result);
   } else {
-    follower_.hold(dt);
-    wanted = jaco_kinematics::forward(follower_.state().position);
-    if (!tick.primary.position) {
-      result.reason = tick.primary.fault;
-    } else if (!tick.secondary) {
-      result.code = ControlCode::kStaleSetpoint;
-      result.reason = "no set-point for this tick";
-    } else if (tick.secondary->kind == SetpointKind::kInvalid) {
-      ++counts_.invalid_setpoints;
-      result.code = ControlCode::kInvalidSetpoint;
-      result.reason = tick.secondary->refusal;
-    }
+    hold(tick, result);
   }
-  const JointVector hand = tick.primary.position.value_or(follower_.state().position);
-  const auto error = pose_error(jaco_kinematics::forward(hand), wanted);
-  result.position_error = error.head<3>().norm();
-  result.orientation_error = error.tail<3>().norm();
+}
+
+void ArmController::hold(const Tick& tick, ControlResult& result) {
+  follower_.hold(tick.dt);
+  if (!tick.setpoint) {
+    result.code = ControlCode::kStaleSetpoint;
+    result.reason = "no set-point for this tick";
+  } else if (tick.setpoint->kind == SetpointKind::kInvalid) {
+    ++counts_.invalid_setpoints;
+    result.code = ControlCode::kInvalidSetpoint;
+    result.reason = tick.setpoint->refusal;
+  }
+  int joint = 0;
+  if (joints_outside(follower_.state().position).maxCoeff(&joint) > 0.0) {
+    result.reason += (result.reason.empty() ? "" : "; ") +
+                     reasons().outside(follower_.state().position, joint) + ": holds there";
+  }
 }
 
 void ArmController::follow(const PoseSetpoint& setpoint, double dt, ControlResult& result) {
@@ -159,30 +185,44 @@ void ArmController::follow(const PoseSetpoint& setpoint, double dt, ControlResul
   if (step.goal == GoalKind::kChangesBranch) ++counts_.branch_changing;
   result.code = code_of(step);
   result.deviation = step.position_deviation;
-  if (result.code != ControlCode::kFollowing) result.reason = describe(step);
-}
-
-std::string ArmController::describe(const FollowerStep& step) const {
-  std::ostringstream text;
-  if (step.goal == GoalKind::kNearest) {
-    text << "no joint position within limits gives the pose; goes to the nearest, now "
-         << step.position_deviation << " m and " << step.orientation_deviation << " rad from it";
-  } else if (step.goal == GoalKind::kJumpRefused) {
-    text << name(step.jump_joint) << " would jump by " << step.jump << " rad, bound "
-         << params_.follower.max_joint_step << " rad; creeps toward the pose";
-  } else if (step.goal == GoalKind::kChangesBranch) {
-    text << "changes branch slowly, " << name(step.jump_joint) << " has " << step.jump
-         << " rad to go";
-  } else {
-    const bool position = step.motion.limit == Limit::kPosition;
-    text << name(step.motion.joint) << (position ? " near its position limit, " : " ") << "asked "
-         << step.motion.asked << " rad/s, bound " << step.motion.bound << " rad/s";
+  if (result.code != ControlCode::kFollowing) {
+    result.reason = reasons().step(step, params_.follower.max_joint_step);
   }
-  return text.str();
 }
 
-std::string ArmController::name(int joint) const {
-  return params_.joint_prefix + std::to_string(joint + 1);
+// The only place from which a command leaves the controller.
+void ArmController::pass_gate(const Tick& tick, const std::optional<MotionState>& last,
+                              ControlResult& result) {
+  GateInput input;
+  input.wanted = follower_.state();
+  input.measured = tick.measured;
+  input.dt = tick.dt;
+  input.anew = result.restarted;
+  input.before = result.restarted ? MotionState{*tick.measured, JointVector::Zero()} : *last;
+  const GateOutput output =
+      prf_control::pass_gate(input, follower_.limits(), params_.max_tracking_error);
+  result.command = output.command;
+  if (output.refusal.empty()) return;
+  ++counts_.refused_commands;
+  follower_.start(output.command);
+  result.code = ControlCode::kFailing;
+  result.reason = output.refusal;
+  result.restarted = result.restarted || output.anew;
+}
+
+void ArmController::measure_error(const Tick& tick, const std::optional<MotionState>& last,
+                                  ControlResult& result) const {
+  if (!measured_) {
+    result.position_error = result.orientation_error = std::nan("");
+    return;
+  }
+  // Where the command has begun anew, the hand is compared with where it should have been.
+  const MotionState& held = result.restarted && last ? *last : *result.command;
+  const Eigen::Isometry3d wanted =
+      tick.has_pose() ? tick.setpoint->pose.hand_in_base : jaco_kinematics::forward(held.position);
+  const auto error = pose_error(jaco_kinematics::forward(*measured_), wanted);
+  result.position_error = error.head<3>().norm();
+  result.orientation_error = error.tail<3>().norm();
 }
 
 }  // namespace prf_control

@@ -33,6 +33,33 @@ double braking_bound(double distance, double acceleration, double dt) {
   return acceleration * (std::sqrt(dt * dt + 2.0 * d / acceleration) - dt);
 }
 
+// The largest change of a joint's velocity v in a direction: `braking` to rest, `acceleration` from
+// there on.
+double velocity_change(double v, bool upward, int joint, double dt, const MotionLimits& limits) {
+  const double speeding_up = limits.acceleration[joint] * dt;
+  const bool slows_down = upward ? v < 0.0 : v > 0.0;
+  if (!slows_down) return speeding_up;
+  return std::max(speeding_up, std::min(limits.braking[joint] * dt, std::abs(v)));
+}
+
+// A joint outside its limits keeps its place as the limit, until it is inside.
+double within(double position, double before, int joint, const MotionLimits& limits) {
+  return std::clamp(position, std::min(limits.lower[joint], before),
+                    std::max(limits.upper[joint], before));
+}
+
+// How fast a joint may move toward its position limits: not at all beyond them.
+struct Speeds {
+  double down;
+  double up;
+};
+
+Speeds speeds_to_limits(double position, int joint, double dt, const MotionLimits& limits) {
+  const double braking = limits.braking[joint];
+  return {braking_bound(position - limits.lower[joint], braking, dt),
+          braking_bound(limits.upper[joint] - position, braking, dt)};
+}
+
 void note(LimitedStep& step, Limit limit, int joint, double asked, double bound) {
   step.limit = limit;
   step.joint = joint;
@@ -62,10 +89,14 @@ LimitedStep step_with_velocity(const MotionState& state, const JointVector& want
   const JointVector allowed = speed.value * wanted;
 
   const JointVector change = allowed - state.velocity;
-  const Share thrust = common_share(change, limits.acceleration * dt);
+  JointVector largest_change;
+  for (int i = 0; i < change.size(); ++i) {
+    largest_change[i] = velocity_change(state.velocity[i], change[i] > 0.0, i, dt, limits);
+  }
+  const Share thrust = common_share(change, largest_change);
   if (thrust.joint >= 0) {
     note(step, Limit::kAcceleration, thrust.joint, change[thrust.joint] / dt,
-         limits.acceleration[thrust.joint]);
+         largest_change[thrust.joint] / dt);
   } else if (speed.joint >= 0) {
     note(step, Limit::kVelocity, speed.joint, wanted[speed.joint], limits.velocity[speed.joint]);
   }
@@ -73,12 +104,11 @@ LimitedStep step_with_velocity(const MotionState& state, const JointVector& want
   for (int i = 0; i < change.size(); ++i) {
     const double asked = state.velocity[i] + thrust.value * change[i];
     const double q = state.position[i];
-    const double up = braking_bound(limits.upper[i] - q, limits.acceleration[i], dt);
-    const double down = braking_bound(q - limits.lower[i], limits.acceleration[i], dt);
-    const double v = std::clamp(asked, -down, up);
+    const Speeds speeds = speeds_to_limits(q, i, dt, limits);
+    const double v = std::clamp(asked, -speeds.down, speeds.up);
     if (v != asked) note(step, Limit::kPosition, i, asked, v);
     step.state.velocity[i] = v;
-    step.state.position[i] = std::clamp(q + v * dt, limits.lower[i], limits.upper[i]);
+    step.state.position[i] = within(q + v * dt, q, i, limits);
   }
   return step;
 }
@@ -96,6 +126,9 @@ void MotionLimits::validate() const {
     }
     if (!(std::isfinite(acceleration[i]) && acceleration[i] > 0.0)) {
       throw std::invalid_argument("acceleration limit" + joint + " must be finite and > 0");
+    }
+    if (!(std::isfinite(braking[i]) && braking[i] >= acceleration[i])) {
+      throw std::invalid_argument("braking" + joint + " must be finite and >= its acceleration");
     }
   }
 }
@@ -117,22 +150,25 @@ VelocityRange allowed_velocities(const MotionState& state, double dt, const Moti
   VelocityRange range;
   for (int i = 0; i < range.lower.size(); ++i) {
     const double v = state.velocity[i];
-    const double dv = limits.acceleration[i] * dt;
-    double lower = std::max(-limits.velocity[i], v - dv);
-    double upper = std::min(limits.velocity[i], v + dv);
-    if (lower > upper) lower = upper = v > 0 ? v - dv : v + dv;
-    const double q = state.position[i];
-    const double up = braking_bound(limits.upper[i] - q, limits.acceleration[i], dt);
-    const double down = braking_bound(q - limits.lower[i], limits.acceleration[i], dt);
-    range.lower[i] = std::clamp(lower, -down, up);
-    range.upper[i] = std::clamp(upper, -down, up);
+    const double least = v - velocity_change(v, false, i, dt, limits);
+    const double most = v + velocity_change(v, true, i, dt, limits);
+    double lower = std::max(-limits.velocity[i], least);
+    double upper = std::min(limits.velocity[i], most);
+    if (lower > upper) lower = upper = v > 0 ? least : most;
+    const Speeds speeds = speeds_to_limits(state.position[i], i, dt, limits);
+    range.lower[i] = std::clamp(lower, -speeds.down, speeds.up);
+    range.upper[i] = std::clamp(upper, -speeds.down, speeds.up);
   }
   return range;
 }
 
 MotionState moved(const MotionState& state, const JointVector& velocity, double dt,
                   const MotionLimits& limits) {
-  return {(state.position + velocity * dt).cwiseMax(limits.lower).cwiseMin(limits.upper), velocity};
+  MotionState result{state.position + velocity * dt, velocity};
+  for (int i = 0; i < velocity.size(); ++i) {
+    result.position[i] = within(result.position[i], state.position[i], i, limits);
+  }
+  return result;
 }
 
 LimitedStep step_toward(const MotionState& state, const MotionState& goal, double dt,

@@ -8,6 +8,7 @@
 #include <prf_core/se3.hpp>
 #include <stdexcept>
 
+#include "prf_control/measured_joints.hpp"
 #include "prf_control/nearest_pose.hpp"
 #include "prf_control/resolved_rate.hpp"
 
@@ -37,10 +38,13 @@ constexpr double kOnGoal = 1e-6;
 // it can start and end within one tick without meeting the limit.
 constexpr double kDriftShare = 0.8;
 
-MotionLimits limits_of(const FollowerParams& params) {
+// [rad] A joint that is farther outside its limits than rounding goes back inside.
+constexpr double kOutside = 1e-9;
+
+MotionLimits limits_of(const FollowerParams& params, double braking) {
   const auto& joints = jaco_kinematics::jaco_joint_limits();
   MotionLimits limits{joints.lower, joints.upper, params.velocity_scale * joints.velocity,
-                      JointVector::Constant(params.acceleration)};
+                      JointVector::Constant(params.acceleration), JointVector::Constant(braking)};
   limits.validate();
   return limits;
 }
@@ -63,15 +67,15 @@ struct SetpointFollower::Goal {
 };
 
 void FollowerParams::validate() const {
-  using prf_core::require_positive_up_to;
-  require_positive_up_to("velocity_scale", velocity_scale, 1.0);
-  require_positive_up_to("acceleration", acceleration, 100.0, "rad/s^2");
-  require_positive_up_to("max_joint_step", max_joint_step, M_PI, "rad");
-  require_positive_up_to("far_position", far_position, 1.0, "m");
-  require_positive_up_to("far_orientation", far_orientation, M_PI, "rad");
-  require_positive_up_to("damping", damping, 1.0);
-  require_positive_up_to("orientation_weight", orientation_weight, 10.0, "m/rad");
-  require_positive_up_to("branch_patience", branch_patience, 1e6, "s");
+  using prf_core::require_between;
+  require_between("velocity_scale", velocity_scale, 0.01, 1.0);
+  require_between("acceleration", acceleration, 0.1, 20.0, "rad/s^2");
+  require_between("max_joint_step", max_joint_step, 0.01, 1.0, "rad");
+  require_between("far_position", far_position, 0.001, 1.0, "m");
+  require_between("far_orientation", far_orientation, 0.001, M_PI, "rad");
+  require_between("damping", damping, 0.001, 1.0);
+  require_between("orientation_weight", orientation_weight, 0.01, 10.0, "m/rad");
+  require_between("branch_patience", branch_patience, 0.01, 60.0, "s");
 }
 
 SetpointFollower::SetpointFollower(const FollowerParams& params) { tune(params); }
@@ -79,14 +83,20 @@ SetpointFollower::SetpointFollower(const FollowerParams& params) { tune(params);
 void SetpointFollower::tune(const FollowerParams& params) {
   params.validate();
   params_ = params;
-  limits_ = limits_of(params_);
+  braking_ = std::max(braking_, params.acceleration);
+  limits_ = limits_of(params_, braking_);
 }
 
 void SetpointFollower::start(const JointVector& measured) {
-  if (!measured.allFinite()) throw std::invalid_argument("measured joints must be finite");
+  start(MotionState{measured, JointVector::Zero()});
+}
+
+void SetpointFollower::start(const MotionState& state) {
+  if (!state.position.allFinite() || !state.velocity.allFinite()) {
+    throw std::invalid_argument("joints to start from must be finite");
+  }
   reset();
-  state_ =
-      MotionState{measured.cwiseMax(limits_.lower).cwiseMin(limits_.upper), JointVector::Zero()};
+  state_ = state;
 }
 
 void SetpointFollower::reset() {
@@ -103,24 +113,45 @@ void SetpointFollower::forget_setpoints() {
 }
 
 FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
-  const Goal goal = choose_goal(setpoint, dt);
   FollowerStep step;
-  step.goal = goal.kind;
-  step.jump_joint = goal.jump_joint;
-  step.jump = goal.jump;
-  MotionLimits limits = limits_;
-  if (goal.kind == GoalKind::kChangesBranch) limits.velocity *= kBranchChangeSpeed;
-  step.motion = step_toward(state(), goal.motion, dt, limits);
-  transfers_ = transfers_ && step.motion.limit != Limit::kNone;
-  if (goal.kind == GoalKind::kExact && !transfers_ && step.motion.limit != Limit::kNone) {
-    step.motion = resolved_rate_step(setpoint, goal.motion, dt);
+  if ((joints_outside(state().position).array() > kOutside).any()) {
+    step = step_inside(dt);
+  } else {
+    step = step_toward_goal(setpoint, choose_goal(setpoint, dt), dt);
   }
   const ErrorVector deviation =
       pose_error(jaco_kinematics::forward(step.motion.state.position), setpoint.hand_in_base);
   step.position_deviation = deviation.head<3>().norm();
   step.orientation_deviation = deviation.tail<3>().norm();
-
   state_ = step.motion.state;
+  return step;
+}
+
+FollowerStep SetpointFollower::step_inside(double dt) {
+  FollowerStep step;
+  step.goal = GoalKind::kInside;
+  step.jump = joints_outside(state().position).maxCoeff(&step.jump_joint);
+  MotionLimits limits = limits_;
+  limits.velocity *= kSlowly;
+  const JointVector inside = state().position.cwiseMax(limits.lower).cwiseMin(limits.upper);
+  step.motion = step_toward(state(), {inside, JointVector::Zero()}, dt, limits);
+  forget_setpoints();
+  return step;
+}
+
+FollowerStep SetpointFollower::step_toward_goal(const PoseSetpoint& setpoint, const Goal& goal,
+                                                double dt) {
+  FollowerStep step;
+  step.goal = goal.kind;
+  step.jump_joint = goal.jump_joint;
+  step.jump = goal.jump;
+  MotionLimits limits = limits_;
+  if (goal.kind == GoalKind::kChangesBranch) limits.velocity *= kSlowly;
+  step.motion = step_toward(state(), goal.motion, dt, limits);
+  transfers_ = transfers_ && step.motion.limit != Limit::kNone;
+  if (goal.kind == GoalKind::kExact && !transfers_ && step.motion.limit != Limit::kNone) {
+    step.motion = resolved_rate_step(setpoint, goal.motion, dt);
+  }
   goal_ = goal.motion.position;
   last_pose_ = setpoint.hand_in_base;
   return step;

@@ -75,7 +75,7 @@ TEST(BranchChange, IsMadeSlowlyWhenItStaysRefused) {
       if (step.goal == GoalKind::kJumpRefused) refused += kDt;
       if (step.goal == GoalKind::kChangesBranch) {
         changes = true;
-        const JointVector allowed = 0.95 * kBranchChangeSpeed * jaco_joint_limits().velocity;
+        const JointVector allowed = 0.95 * kSlowly * jaco_joint_limits().velocity;
         const double excess = (before.velocity.cwiseAbs() - allowed).maxCoeff();
         ASSERT_LE(excess, tick < 150 ? 1.0 : 1e-9) << "the creep has ended by then";
       }

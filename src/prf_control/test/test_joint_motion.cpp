@@ -22,6 +22,7 @@ MotionLimits some_limits() {
   limits.upper[0] = limits.upper[6] = std::numeric_limits<double>::infinity();
   limits.velocity << 0.6, 0.6, 0.6, 0.6, 0.8, 0.8, 0.8;
   limits.acceleration << 4.0, 3.0, 4.0, 4.0, 5.0, 5.0, 2.0;
+  limits.braking = limits.acceleration;
   return limits;
 }
 

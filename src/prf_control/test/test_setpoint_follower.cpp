@@ -206,13 +206,14 @@ TEST(SetpointFollower, BrakesDownToNewVelocityLimitsWithinTheAccelerationLimit) 
   EXPECT_THROW(follower.tune(slow), std::invalid_argument);
 }
 
-TEST(SetpointFollower, StartsInsideTheLimits) {
+TEST(SetpointFollower, StartsWhereTheJointsAre) {
   SetpointFollower follower(params());
   EXPECT_FALSE(follower.started());
   JointVector outside = home();
-  outside[1] = 0.1;
+  outside[1] = jaco_joint_limits().lower[1] - 0.1;
   follower.start(outside);
-  EXPECT_EQ(follower.state().position[1], jaco_joint_limits().lower[1]);
+  EXPECT_EQ(follower.state().position, outside);
+  EXPECT_EQ(follower.hold(kDt).motion.state.position, outside);
   EXPECT_THROW(follower.start(JointVector::Constant(std::nan(""))), std::invalid_argument);
 }
 

@@ -3,9 +3,11 @@
 //
 //   q' = q + v' dt     lower <= q' <= upper     |v'| <= velocity     |v' - v| <= acceleration dt
 //
+// A joint that slows down may do so by up to `braking` dt instead of acceleration dt.
 // The limits are kept for any sequence of dt > 0, from any state that keeps them and can still
-// brake before the position limits. All joints are slowed by one factor, so a motion from rest to a
-// goal at rest is a straight line in joint space, without overshoot.
+// brake before the position limits. A joint outside its position limits never goes farther out. All
+// joints are slowed by one factor, so a motion from rest to a goal at rest is a straight line in
+// joint space, without overshoot.
 // Units: radians, seconds. std::invalid_argument for non-finite input or dt <= 0.
 #pragma once
 
@@ -20,6 +22,7 @@ struct MotionLimits {
   JointVector upper;         // [rad]
   JointVector velocity;      // [rad/s], > 0
   JointVector acceleration;  // [rad/s^2], > 0
+  JointVector braking;       // [rad/s^2], >= acceleration
 
   void validate() const;
 };

@@ -6,7 +6,7 @@
 //             T out of reach: the nearest pose (nearest_pose.hpp);
 //             a joint of q_g jumps by more than max_joint_step though T moved little (a change of
 //             branch): refused, the goal takes a damped step along the Jacobian instead; after
-//             branch_patience of refusals the branch is changed, at kBranchChangeSpeed
+//             branch_patience of refusals the branch is changed, at kSlowly
 //   velocity  dq_g = (q_g - inverse(T moved back by its twist)) / dt
 //   command   the step of joint_motion.hpp toward (q_g, dq_g). Where a limit shapes that step, a
 //             resolved-rate step (resolved_rate.hpp) keeps the hand on its path instead; but to a
@@ -14,8 +14,9 @@
 //
 // While the command is on its goal, the redundancy drifts away from limits and singularities
 // (IkParams of jaco_kinematics). The state is the last command; start() sets it to measured joints
-// at rest. A set-point that is reached within the limits is met exactly: forward(command) = T.
-// The hand is j2s7s300_end_effector, its pose and twist are in j2s7s300_link_base; m, rad, s.
+// at rest. From outside the joint limits the arm first goes back inside, at kSlowly; hold() leaves
+// it where it is. A set-point that is reached within the limits is met exactly: forward(command) =
+// T. The hand is j2s7s300_end_effector, its pose and twist are in j2s7s300_link_base; m, rad, s.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,21 +27,22 @@
 namespace prf_control {
 
 struct FollowerParams {
-  double velocity_scale;      // share of the URDF's joint velocity limits, (0, 1]
-  double acceleration;        // [rad/s^2] of every joint, > 0
-  double max_joint_step;      // [rad], > 0
-  double far_position;        // [m], > 0; from the last set-point; beyond it all joints go together
-  double far_orientation;     // [rad], > 0, < pi; likewise
-  double damping;             // of the Jacobian step, (0, 1]
-  double orientation_weight;  // [m/rad], > 0; see nearest_pose.hpp
-  double branch_patience;     // [s], > 0; for which a change of branch is refused
+  double velocity_scale;      // share of the URDF's joint velocity limits, 0.01 to 1
+  double acceleration;        // [rad/s^2] of every joint, 0.1 to 20
+  double max_joint_step;      // [rad], 0.01 to 1
+  double far_position;        // [m], 0.001 to 1; from the last set-point; beyond it all joints go
+                              // together
+  double far_orientation;     // [rad], 0.001 to pi; likewise
+  double damping;             // of the Jacobian step, 0.001 to 1
+  double orientation_weight;  // [m/rad], 0.01 to 10; see nearest_pose.hpp
+  double branch_patience;     // [s], 0.01 to 60; for which a change of branch is refused
 
   void validate() const;
 };
 
-// Share of the velocity limits for a change of branch (of the inverse kinematics). The motion is
-// slow because the hand leaves its path meanwhile.
-inline constexpr double kBranchChangeSpeed = 0.25;
+// Share of the velocity limits for a change of branch (of the inverse kinematics) and for the way
+// back inside the joint limits. The motion is slow because the hand leaves its path meanwhile.
+inline constexpr double kSlowly = 0.25;
 
 // [rad/s] Speed of the null-space drift, norm of all joints; less where the acceleration limit
 // asks for it. docs/results/kinematics.md says what the drift gains.
@@ -57,6 +59,7 @@ enum class GoalKind {
   kNearest,        // out of reach or limits, the goal is the nearest pose
   kJumpRefused,    // a change of branch refused, the goal takes damped steps to the set-point
   kChangesBranch,  // on the way to another branch, slowly
+  kInside,         // from outside the joint limits to the nearest joint positions inside, slowly
   kRest            // hold
 };
 
@@ -65,7 +68,8 @@ struct FollowerStep {
   LimitedStep motion;                // the command, and the limit that shaped it
   double position_deviation = 0;     // [m], set-point to forward(command); 0 when holding
   double orientation_deviation = 0;  // [rad]
-  // Joint of the refused jump, or the farthest from its goal while the branch changes.
+  // Joint of the refused jump, the farthest from its goal while the branch changes, or the farthest
+  // outside its limits.
   int jump_joint = -1;
   double jump = 0;  // [rad]
 };
@@ -74,14 +78,18 @@ class SetpointFollower {
  public:
   explicit SetpointFollower(const FollowerParams& params);
 
-  // At rest at `measured`, moved inside the joint limits; forgets everything else.
+  // At rest at `measured`, also outside the joint limits; forgets everything else.
   void start(const JointVector& measured);
+  void start(const MotionState& state);
   void reset();  // as constructed: not started
   [[nodiscard]] bool started() const { return state_.has_value(); }
   [[nodiscard]] const MotionState& state() const { return state_.value(); }
 
+  [[nodiscard]] const MotionLimits& limits() const { return limits_; }
+
   // Other parameters from the next step on, std::invalid_argument if validate() refuses them; a
-  // motion above new velocity limits brakes down to them.
+  // motion above new velocity limits brakes down to them. Braking uses the greatest acceleration
+  // that was ever given: no tuning makes a motion under way harder to stop.
   void tune(const FollowerParams& params);
 
   // Both need started(); std::invalid_argument for non-finite set-points or dt <= 0.
@@ -91,6 +99,8 @@ class SetpointFollower {
  private:
   struct Goal;
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
+  FollowerStep step_toward_goal(const PoseSetpoint& setpoint, const Goal& goal, double dt);
+  FollowerStep step_inside(double dt);
   jaco_kinematics::IkParams ik_params(double dt) const;
   void forget_setpoints();
   LimitedStep resolved_rate_step(const PoseSetpoint& setpoint, const MotionState& goal,
@@ -101,6 +111,7 @@ class SetpointFollower {
   bool is_far(const Eigen::Isometry3d& hand_in_base) const;
 
   FollowerParams params_;
+  double braking_ = 0.0;  // [rad/s^2]
   MotionLimits limits_;
   std::optional<MotionState> state_;
   std::optional<JointVector> goal_;             // of the last follow(), none after a hold

@@ -11,15 +11,10 @@
 #include <prf_core/stream_joiner.hpp>
 #include <string>
 
+#include "prf_control/measured_joints.hpp"
 #include "prf_control/setpoint.hpp"
 
 namespace prf_control {
-
-struct JointSample {
-  prf_core::Stamp stamp{0};
-  std::optional<jaco_kinematics::JointVector> position;  // [rad], none when one was not finite
-  std::string fault;                                     // then: which
-};
 
 struct JoinerCounts {
   std::uint64_t duplicate_ticks = 0;
