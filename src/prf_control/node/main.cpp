@@ -11,12 +11,15 @@
 
 #include "messages.hpp"
 #include "params.hpp"
+#include "robot_description.hpp"
 
 namespace prf_control {
 namespace {
 
 constexpr double kWarnPeriod = 1.0;     // [s]
 constexpr std::uint32_t kQueue = 1000;  // messages, 10 s of ticks
+constexpr double kDescriptionPatience =
+    5.0;  // [s], wall clock: the launch file's other nodes start
 
 class ArmControllerNode {
  public:
@@ -128,7 +131,11 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "arm_controller");
   ros::NodeHandle node;
   return prf_ros::run([&node] {
-    prf_control::ArmControllerNode controller(node, prf_control::load_params(ros::NodeHandle("~")));
+    const prf_control::NodeParams params = prf_control::load_params(ros::NodeHandle("~"));
+    prf_control::require_same_arm(
+        prf_control::wait_for_robot_description(node, prf_control::kDescriptionPatience),
+        {params.joint_names(), params.planning_frame, params.hand_frame});
+    prf_control::ArmControllerNode controller(node, params);
     ros::spin();
   });
 }

@@ -12,18 +12,19 @@ import rospy
 import rostest
 
 NAN, INF = float('nan'), float('inf')
-# The greatest value of each, and how the message writes it. All must be above 0.
-GREATEST = {'velocity_scale': (1.0, '1'), 'acceleration': (100.0, '100'),
-            'max_joint_step': (math.pi, '3.14'), 'far_position': (1.0, '1'),
-            'far_orientation': (math.pi, '3.14'), 'damping': (1.0, '1'),
-            'orientation_weight': (10.0, '10'), 'branch_patience': (1e6, '1e+06'),
-            'max_tracking_error': (math.pi, '3.14'), 'max_wait': (10.0, '10')}
+# The least and the greatest value of each.
+BOUNDS = {'velocity_scale': (0.01, 1.0), 'acceleration': (0.1, 20.0), 'max_joint_step': (0.01, 1.0),
+          'far_position': (0.001, 1.0), 'far_orientation': (0.001, math.pi), 'damping': (0.001, 1.0),
+          'orientation_weight': (0.01, 10.0), 'branch_patience': (0.01, 60.0),
+          'max_tracking_error': (0.01, 1.0), 'max_wait': (0.02, 5.0)}
 NAMES = ('joint_prefix', 'planning_frame', 'hand_frame')
 # Parameter, bad value, how the message writes the value, and the bound.
 CATALOGUE = (
-    [(name, value, '%g' % value, '> 0') for name in GREATEST for value in (0.0, -1.0, NAN, INF)] +
-    [(name, 1.1 * most, '%g' % (1.1 * most), '<= ' + text) for name, (most, text) in GREATEST.items()] +
-    [(name, 'much', 'much', 'a number') for name in GREATEST] +
+    [(name, value, '%g' % value, 'within [%g, %g]' % BOUNDS[name])
+     for name in BOUNDS for value in (0.0, -1.0, NAN, INF, 5e-324, 1e308)] +
+    [(name, value, '%g' % value, 'within [')
+     for name, (least, most) in BOUNDS.items() for value in (0.9 * least, 1.1 * most)] +
+    [(name, 'much', 'much', 'a number') for name in BOUNDS] +
     [(name, '', "''", 'must be not empty') for name in NAMES] +
     [(name, 7, '7', 'a string') for name in NAMES] +
     [('accelaration', 4.0, '', '')])
@@ -34,16 +35,20 @@ class ArmControllerParams(unittest.TestCase):
         config = rospy.get_param('~config')
         self.good = rosparam.load_file(config, default_namespace='/')[0][0]
         self.node = roslib.packages.find_node('prf_control', 'arm_controller_node')[0]
+        self.urdf = roslib.packages.find_resource('jaco_v60_description', 'jaco_v60.urdf')[0]
         self.addCleanup(rospy.delete_param, '/refused')
 
     def start(self, name, patience):
         return subprocess.run([self.node, '__ns:=/refused', '__name:=' + name], capture_output=True,
                               text=True, timeout=patience)
 
-    def check_refused(self, cases):
+    def check_refused(self, cases, keep=False):
         """Cases: the node's parameters, and what its one fatal line must say."""
         names = ['case_%d' % i for i in range(len(cases))]
-        rospy.set_param('/refused', {name: case[0] for name, case in zip(names, cases)})
+        if not keep and rospy.has_param('/refused'):
+            rospy.delete_param('/refused')
+        for name, case in zip(names, cases):
+            rospy.set_param('/refused/' + name, case[0])
         with concurrent.futures.ThreadPoolExecutor(6) as pool:
             results = list(pool.map(lambda name: self.start(name, 60), names))
         for (_, said), result in zip(cases, results):
@@ -54,6 +59,7 @@ class ArmControllerParams(unittest.TestCase):
             for words in said:
                 self.assertIn(words, fatal[0])
 
+    # Fault 28, 43, A9: a parameter that is not finite, absurd or beyond physics -> exit code 2 with name, value and bound
     def test_every_bad_value_is_refused_with_name_value_and_bound(self):
         self.check_refused([(dict(self.good, **{name: value}), (name, said, bound))
                             for name, value, said, bound in CATALOGUE])
@@ -62,7 +68,18 @@ class ArmControllerParams(unittest.TestCase):
         self.check_refused([({k: v for k, v in self.good.items() if k != name}, (name, 'missing'))
                             for name in self.good])
 
+    # Fault 45, A0: no robot_description, or of another arm -> exit code 2 and what is missing or differs
+    def test_an_arm_that_is_not_the_compiled_one_is_refused(self):
+        self.check_refused([(self.good, ('robot_description missing after 5 s', 'URDF of the robot'))])
+        with open(self.urdf) as file:
+            rospy.set_param('/refused/robot_description', file.read())
+        self.check_refused([
+            (dict(self.good, joint_prefix='panda_joint'), ('not [panda_joint1,', 'j2s7s300_joint_1')),
+            (dict(self.good, hand_frame='panda_hand'), ('no link panda_hand',))], keep=True)
+
     def test_the_configuration_of_the_package_is_accepted(self):
+        with open(self.urdf) as file:
+            rospy.set_param('/refused/robot_description', file.read())
         rospy.set_param('/refused/good', self.good)
         with self.assertRaises(subprocess.TimeoutExpired):
             self.start('good', 2)

@@ -111,7 +111,7 @@ TEST(CommandBounds, HoldWhateverComes) {
     ASSERT_EQ(controller->counts().refused_commands, 0u) << "the gate is the last resort";
   }
   EXPECT_GT(restarts, 150);
-  EXPECT_GT(followed, 5000);
+  EXPECT_GT(followed, 3000);
 }
 
 // Fault 37, A0: joint 4 reported as -1.0 with a set-point that means hold -> the command stays
