@@ -2,7 +2,6 @@
 #include "messages.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <prf_ros/conversions.hpp>
 
 namespace prf_control {
@@ -11,20 +10,14 @@ using prf_ros::to_core;
 
 std::optional<JointSample> to_sample(const sensor_msgs::JointState& message,
                                      const std::vector<std::string>& joint_names) {
-  JointSample sample;
-  sample.stamp = to_core(message.header.stamp);
   JointVector position;
   for (std::size_t i = 0; i < joint_names.size(); ++i) {
     const auto found = std::find(message.name.begin(), message.name.end(), joint_names[i]);
     const auto index = static_cast<std::size_t>(found - message.name.begin());
     if (index >= message.name.size() || index >= message.position.size()) return std::nullopt;
     position[static_cast<Eigen::Index>(i)] = message.position[index];
-    if (!std::isfinite(message.position[index])) {
-      sample.fault = "joint_states: position of " + joint_names[i] + " is not finite";
-    }
   }
-  if (sample.fault.empty()) sample.position = position;
-  return sample;
+  return checked_joints(to_core(message.header.stamp), position, joint_names);
 }
 
 Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
