@@ -42,6 +42,7 @@ void SimParams::validate() const {
                               -2.0 * M_PI, 2.0 * M_PI, "rad");
   }
   prf_core::require_between("response_timeout", response_timeout, 0.1, 3600.0, "s");
+  prf_core::require_between("patience", patience, 0.0, response_timeout, "s");
   prf_core::require_between("real_time_factor", real_time_factor, 0.0, 1000.0);
   prf_core::require_between("time_limit", time_limit, 0.01, 86400.0, "s");
   prf_core::require_between("end_delay", end_delay, 0.0, 60.0, "s");
@@ -78,6 +79,7 @@ SimParams load_params(prf_ros::PrivateParameters values) {
   result.lockstep = values.flag("lockstep");
   result.paused = values.flag("paused");
   result.response_timeout = values.number("response_timeout");
+  result.patience = values.number("patience");
   result.real_time_factor = values.number("real_time_factor");
   result.time_limit = values.number("time_limit");
   result.end_delay = values.number("end_delay");

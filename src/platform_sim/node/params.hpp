@@ -16,6 +16,7 @@ struct SimParams {
   bool lockstep = true;
   bool paused = false;
   double response_timeout = 0.0;  // s, wall time
+  double patience = 0.0;          // s, wall time; 0: none
   double real_time_factor = 0.0;  // 0: none in lockstep, 1 otherwise
   double time_limit = 0.0;        // s
   double end_delay = 0.0;         // s

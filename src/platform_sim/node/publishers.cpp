@@ -74,7 +74,8 @@ void SimPublishers::publish_joint_states(std::int64_t now_ms, const World& world
 }
 
 void SimPublishers::publish_diagnostics(std::int64_t now_ms, double real_time_factor,
-                                        double ticks_per_second, unsigned refused) {
+                                        double ticks_per_second, unsigned refused,
+                                        unsigned unanswered) {
   const auto entry = [](const std::string& key, double value) {
     diagnostic_msgs::KeyValue pair;
     pair.key = key;
@@ -90,7 +91,7 @@ void SimPublishers::publish_diagnostics(std::int64_t now_ms, double real_time_fa
   status.message = refused == 0 ? "running" : "commands were refused";
   status.values = {entry("real_time_factor", real_time_factor),
                    entry("ticks_per_wall_second", ticks_per_second),
-                   entry("refused_commands", refused)};
+                   entry("refused_commands", refused), entry("ticks_without_response", unanswered)};
   diagnostics_.publish(message);
 }
 

@@ -25,7 +25,7 @@ class SimPublishers {
   void publish_ground_truth(std::int64_t now_ms, World& world);
   void publish_joint_states(std::int64_t now_ms, const World& world);
   void publish_diagnostics(std::int64_t now_ms, double real_time_factor, double ticks_per_second,
-                           unsigned refused);
+                           unsigned refused, unsigned unanswered);
 
   [[nodiscard]] bool image_is_wanted() const { return image_.getNumSubscribers() > 0; }
   // Subscribers of all topics together.

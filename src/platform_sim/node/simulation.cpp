@@ -176,6 +176,7 @@ Simulation::End Simulation::wait_for_responses() {
   spin(ros::WallDuration(0.0));
   while (params_.lockstep && !responses_.lockstep().is_complete()) {
     if (!ros::ok()) return End::kInterrupted;
+    if (params_.patience > 0.0 && seconds_since(begin) > params_.patience) go_on();
     if (seconds_since(begin) > params_.response_timeout) {
       const SilentTopic silent = *responses_.lockstep().first_silent();
       ROS_FATAL(
@@ -186,8 +187,22 @@ Simulation::End Simulation::wait_for_responses() {
     }
     spin(kSpin);
   }
+  if (params_.lockstep && responses_.lockstep().goes_without()) {
+    ++unanswered_;
+    while (seconds_since(begin) < seconds(kTickMs) && ros::ok()) spin(ros::WallDuration(0.001));
+  }
   waiting_ += ros::WallTime::now() - begin;
   return ros::ok() ? End::kEnded : End::kInterrupted;
+}
+
+void Simulation::go_on() {
+  std::vector<std::string> names;
+  for (const Response response : responses_.lockstep().go_on()) {
+    names.emplace_back(topic_name(response));
+  }
+  if (names.empty()) return;
+  ROS_WARN_THROTTLE(1.0, "tick %.3f s: goes on without %s after %.2f s of wall time",
+                    seconds(now_ms_), joined(names).c_str(), params_.patience);
 }
 
 void Simulation::apply_responses() {
@@ -233,7 +248,8 @@ void Simulation::report_rate() {
   const ros::WallDuration since = ros::WallTime::now() - last_report_;
   if (since.toSec() < kReportPeriod) return;
   const double factor = seconds(now_ms_ - last_report_ms_) / since.toSec();
-  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, responses_.refused());
+  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, responses_.refused(),
+                                  unanswered_);
   last_report_ = ros::WallTime::now();
   last_report_ms_ = now_ms_;
 }

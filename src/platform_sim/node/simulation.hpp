@@ -42,6 +42,7 @@ class Simulation {
   void simulate_tick();
   void publish_tick();
   void render(Image& image);
+  void go_on();
   void apply_responses();
   void keep_pace();
   [[nodiscard]] bool at_end();
@@ -63,6 +64,7 @@ class Simulation {
   bool fallen_ = false;
   ros::WallTime begin_, last_report_;
   std::int64_t last_report_ms_ = 0;
+  unsigned unanswered_ = 0;  // ticks
   ros::WallDuration physics_, rendering_, waiting_;
 };
 

@@ -3,7 +3,16 @@
 
 #include <prf_msgs/topics.h>
 
+#include <algorithm>
+#include <array>
+
 namespace platform_sim {
+namespace {
+
+// The responses without which the simulator does not advance.
+constexpr std::array kAwaited = {Response::kWrench, Response::kProgress, Response::kCommand};
+
+}  // namespace
 
 const char* topic_name(Response response) {
   switch (response) {
@@ -40,6 +49,7 @@ bool Lockstep::received(Response response, prf_core::Stamp stamp) {
   Expected& from = expected(response);
   if (from.last_received && stamp <= *from.last_received) return false;
   from.last_received = stamp;
+  from.given_up = false;
   while (!from.pending.empty() && from.pending.front() <= stamp) from.pending.pop_front();
   if (response == Response::kDetections) expect(Response::kForecast, stamp);
   return true;
@@ -54,10 +64,28 @@ bool Lockstep::received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast
   return true;
 }
 
+bool Lockstep::is_waited_for(Response response) const {
+  return !expected(response).pending.empty() && !expected(response).given_up;
+}
+
 bool Lockstep::is_complete() const {
-  return expected(Response::kWrench).pending.empty() &&
-         expected(Response::kProgress).pending.empty() &&
-         expected(Response::kCommand).pending.empty();
+  return std::none_of(kAwaited.begin(), kAwaited.end(),
+                      [this](Response response) { return is_waited_for(response); });
+}
+
+std::vector<Response> Lockstep::go_on() {
+  std::vector<Response> missing;
+  for (const Response response : kAwaited) {
+    if (!is_waited_for(response)) continue;
+    expected(response).given_up = true;
+    missing.push_back(response);
+  }
+  return missing;
+}
+
+bool Lockstep::goes_without() const {
+  return std::any_of(expected_.begin(), expected_.end(),
+                     [](const Expected& of) { return of.given_up; });
 }
 
 std::optional<SilentTopic> Lockstep::first_silent() const {

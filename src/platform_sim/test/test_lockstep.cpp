@@ -45,6 +45,26 @@ TEST(Lockstep, DoesNotTakeAnOldResponseForTheTick) {
   EXPECT_FALSE(lockstep.first_silent());
 }
 
+// Fault 38, 50: a response that does not come -> the world goes on; it is waited for again once
+// heard
+TEST(Lockstep, GoesOnWithoutAGivenUpTopicUntilItIsHeardAgain) {
+  Lockstep lockstep(Peer::kFramework);
+  lockstep.published_joint_states(10 * kMs);
+  lockstep.received_progress(10 * kMs, kNone);
+  EXPECT_EQ(lockstep.go_on(), std::vector<Response>{Response::kCommand});
+  EXPECT_TRUE(lockstep.is_complete());
+  EXPECT_TRUE(lockstep.goes_without());
+  lockstep.published_joint_states(20 * kMs);
+  EXPECT_FALSE(lockstep.is_complete()) << "progress is still waited for";
+  lockstep.received_progress(20 * kMs, kNone);
+  EXPECT_TRUE(lockstep.is_complete());
+  lockstep.received(Response::kCommand, 20 * kMs);
+  EXPECT_FALSE(lockstep.goes_without());
+  lockstep.published_joint_states(30 * kMs);
+  lockstep.received_progress(30 * kMs, kNone);
+  EXPECT_FALSE(lockstep.is_complete()) << "the command is waited for again";
+}
+
 TEST(Lockstep, NamesEveryLinkOfTheChainWhenItAloneIsSilent) {
   for (const Response mute : {Response::kDetections, Response::kForecast, Response::kProgress,
                               Response::kTrajectory, Response::kSetpoint, Response::kCommand}) {

@@ -61,7 +61,8 @@ class Table(unittest.TestCase):
 
     def test_every_sender_and_reader_is_a_node_of_the_table(self):
         nodes = {node.name for node in self.table.nodes}
-        others = {"every node", "session_observer", "teach_guide", "scene_markers"}
+        others = {"every node", "session_observer", "teach_guide", "scene_markers",
+                  "fault_injector"}
         for topic in self.table.topics:
             self.assertLessEqual(set(topic.senders), nodes | others, topic.name)
             self.assertLessEqual(set(topic.readers), nodes, topic.name)

@@ -9,6 +9,8 @@
 // names a new forecast calls for a skill trajectory. While a hand guides the arm, joint_states
 // calls for guide/wrench only. When the simulator stands still, the pending response with the
 // oldest stamp is the cause; among equal stamps, the one that comes first in the chain.
+// A simulator that injects faults goes on without a response that does not come (go_on()), as a
+// real robot would; a topic given up in this way is waited for again as soon as it is heard.
 #pragma once
 
 #include <array>
@@ -16,6 +18,7 @@
 #include <deque>
 #include <optional>
 #include <prf_core/time.hpp>
+#include <vector>
 
 namespace platform_sim {
 
@@ -56,6 +59,11 @@ class Lockstep {
   // responses are not waited for; they only serve first_silent().
   [[nodiscard]] bool is_complete() const;
 
+  // Gives up the topics that is_complete() waits for. Returns them.
+  std::vector<Response> go_on();
+  // Whether a topic is given up, and not yet heard again.
+  [[nodiscard]] bool goes_without() const;
+
   // The response that has been pending for longest; none when nothing is pending.
   [[nodiscard]] std::optional<SilentTopic> first_silent() const;
 
@@ -63,10 +71,12 @@ class Lockstep {
   struct Expected {
     std::optional<prf_core::Stamp> last_received;
     std::deque<prf_core::Stamp> pending;  // rising
+    bool given_up = false;
   };
 
   void expect(Response response, prf_core::Stamp stamp);
   Expected& expected(Response response) { return expected_[static_cast<std::size_t>(response)]; }
+  [[nodiscard]] bool is_waited_for(Response response) const;
   const Expected& expected(Response response) const {
     return expected_[static_cast<std::size_t>(response)];
   }

@@ -4,7 +4,7 @@
 A digest covers the serialised messages of one publisher on one topic in their order, every field
 including header.seq; receipt times in the bag are not covered. Publishers are kept apart because
 the order between two of them (on tf) is left to the network. Exempt are diagnostics and rosout,
-which carry wall-clock figures, and the trial's description of itself (command, versions).
+which carry wall-clock figures, fault/events, and the trial's description of itself (command, versions).
 """
 import hashlib
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from typing import Any
 
 from prf_experiments.record import recording, topics
 
-EXEMPT = {"/diagnostics", "/rosout", "/rosout_agg", "/" + topics.DESCRIPTION}
+EXEMPT = {"/" + name for name in ["rosout_agg", topics.DESCRIPTION, *topics.EXEMPT]}
 
 
 @dataclass

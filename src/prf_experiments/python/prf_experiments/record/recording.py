@@ -2,9 +2,12 @@
 """A trial's bag as arrays. Stamps are integer nanoseconds, taken from the messages' headers."""
 import json
 import os
+import stat
+import struct
 from dataclasses import dataclass, field
 from typing import Any
 
+import genpy
 import numpy as np
 import rosbag
 import rosgraph_msgs.msg
@@ -15,6 +18,12 @@ from prf_experiments.record import topics
 
 PLANNING_FRAME = "j2s7s300_link_base"
 BODY_FRAME = "base_link"
+ARM_JOINTS = [f"j2s7s300_joint_{number}" for number in range(1, 8)]
+
+
+# What reading a damaged bag may raise, in rosbag, in genpy and in the decompressors.
+DAMAGES = (OSError, ValueError, EOFError, RuntimeError, KeyError, IndexError, AttributeError,
+           TypeError, MemoryError, struct.error, genpy.MessageException)
 
 
 class RecordingError(Exception):
@@ -65,6 +74,23 @@ class Control:
     stamps: np.ndarray  # (n,) ns
     codes: np.ndarray  # (n,) ControlStatus constants
     reasons: list
+    position_errors: np.ndarray = field(default_factory=lambda: np.empty(0))  # (n,) m
+    orientation_errors: np.ndarray = field(default_factory=lambda: np.empty(0))  # (n,) rad
+
+
+@dataclass
+class Joints:
+    """Of the seven joints of the arm, from base to hand."""
+    stamps: np.ndarray  # (n,) ns
+    positions: np.ndarray  # (n, 7) rad
+    velocities: np.ndarray  # (n, 7) rad/s
+
+
+@dataclass
+class FaultEvent:
+    stamp: int  # ns, of the message or tick that it is done to
+    fault: str
+    what: str  # may be empty
 
 
 @dataclass
@@ -95,6 +121,9 @@ class Recording:
     warnings: list = field(default_factory=list)  # warnings and worse of rosout
     diagnostics: dict = field(default_factory=dict)  # {node: {key: [text of each report]}}
     description: dict = field(default_factory=dict)
+    measured: Joints | None = None
+    commands: Joints | None = None
+    fault_events: list = field(default_factory=list)
 
     @property
     def start(self) -> int:
@@ -116,19 +145,28 @@ def transform_values(transform: Any) -> tuple[float, ...]:
 
 
 def open_bag(path: str) -> rosbag.Bag:
+    """Raises RecordingError. Only a file is opened: a device or a pipe may have no end."""
+    try:
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise RecordingError(f"{path}: is no file")
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from None
     try:
         return rosbag.Bag(path)
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(f"{path}: the bag was not closed") from None
-    except (OSError, rosbag.ROSBagException, ValueError) as error:
+    except (*DAMAGES, rosbag.ROSBagException) as error:
         raise RecordingError(f"{path}: cannot be read: {error}") from None
 
 
 def description(path: str) -> dict:
     """What a trial's bag says about itself: command, arguments, versions; {} when nothing."""
     with open_bag(path) as bag:
-        for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
-            return json.loads(message.data)
+        try:
+            for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
+                return json.loads(message.data)
+        except (rosbag.ROSBagException, *DAMAGES) as error:
+            raise RecordingError(f"{path}: broken: {error}") from None
     return {}
 
 
@@ -147,12 +185,17 @@ class _Reader:
         self._tag_id = tag_id
         self._stamps, self._rows = {}, {}
         self._fixed = {}  # child: (parent, pose of child in parent)
+        self._names: list | None = None
+        self._at: list = []
         self.contacts, self.plans, self.horizons, self.positions = [], [], [], []
+        self.fault_events: list = []
         self.warnings, self.diagnostics, self.description = [], {}, {}
         self._kept = {topics.DESCRIPTION: self._keep_description, "tf_static": self._keep_transforms,
-                      "rosout": self._keep_warning, "diagnostics": self._keep_diagnostics}
+                      topics.EVENTS: self._keep_event, "rosout": self._keep_warning,
+                      "diagnostics": self._keep_diagnostics}
         self._rows_of = {
-            "joint_states": lambda message: None,
+            "joint_states": self._arm,
+            "joint_command": self._command,
             "ground_truth/platform": lambda message: pose_values(message.pose.pose),
             "ground_truth/base": lambda message: pose_values(message.pose.pose),
             "ground_truth/tag": lambda message: pose_values(message.pose),
@@ -164,7 +207,9 @@ class _Reader:
             "skill/trajectory": self._keep_plan,
             "execution/progress": lambda message: (message.state, message.cursor, message.reason,
                                                    *message.posterior),
-            "control/status": lambda message: (message.code, message.reason),
+            "control/status": lambda message: (message.code, message.reason,
+                                               message.position_error,
+                                               message.orientation_error),
         }
 
     @property
@@ -178,6 +223,27 @@ class _Reader:
         else:
             self._stamps.setdefault(name, []).append(message.header.stamp.to_nsec())
             self._rows.setdefault(name, []).append(self._rows_of[name](message))
+
+    def _arm(self, message):
+        """Positions and velocities of the arm; NaN for a joint that the message does not name."""
+        if message.name != self._names:
+            self._names = list(message.name)
+            self._at = [self._names.index(name) if name in self._names else None
+                        for name in ARM_JOINTS]
+        return tuple(values[at] if at is not None and at < len(values) else np.nan
+                     for values in (message.position, message.velocity) for at in self._at)
+
+    def _command(self, message):
+        if len(message.points) != 1:
+            return (np.nan,) * (2 * len(ARM_JOINTS))
+        point = message.points[0]
+        at = {name: row for row, name in enumerate(message.joint_names)}
+        return tuple(values[at[name]] if at.get(name, len(values)) < len(values) else np.nan
+                     for values in (point.positions, point.velocities) for name in ARM_JOINTS)
+
+    def _keep_event(self, message):
+        told = json.loads(message.data)
+        self.fault_events.append(FaultEvent(told["stamp"], told["fault"], told["what"]))
 
     def _keep_description(self, message):
         self.description = json.loads(message.data)
@@ -230,8 +296,13 @@ class _Reader:
                         list(reasons))
 
     def control(self):
-        codes, reasons = zip(*self._rows["control/status"])
-        return Control(self.stamps("control/status"), np.array(codes, dtype=int), list(reasons))
+        codes, reasons, positions, orientations = zip(*self._rows["control/status"])
+        return Control(self.stamps("control/status"), np.array(codes, dtype=int), list(reasons),
+                       np.array(positions, dtype=float), np.array(orientations, dtype=float))
+
+    def joints(self, topic):
+        values = np.array(self._rows[topic], dtype=float).reshape(-1, 2 * len(ARM_JOINTS))
+        return Joints(self.stamps(topic), *np.hsplit(values, 2))
 
     def forecasts(self):
         return Forecasts(self.stamps("target/forecast"),
@@ -264,7 +335,7 @@ def read(path: str, tag_id: int = 0) -> Recording:
         try:
             for topic, message, _ in bag.read_messages(topics=reader.topics):
                 reader.take(topic, message)
-        except (rosbag.ROSBagException, OSError, ValueError, EOFError, RuntimeError) as error:
+        except (rosbag.ROSBagException, *DAMAGES) as error:
             raise RecordingError(f"{path}: broken: {error}") from None
     arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
     if arm_base_in_body is None:
@@ -286,5 +357,7 @@ def read(path: str, tag_id: int = 0) -> Recording:
         plans=reader.plans,
         control=reader.control(),
         arm_base_in_body=arm_base_in_body,
+        measured=reader.joints("joint_states"), commands=reader.joints("joint_command"),
+        fault_events=reader.fault_events,
         warnings=reader.warnings, diagnostics=reader.diagnostics,
         description=reader.description)

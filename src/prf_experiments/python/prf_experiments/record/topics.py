@@ -14,4 +14,5 @@ OUTPUTS = TABLE.of_kind("output")
 TRANSFORMS = TABLE.of_kind("transform")
 EXEMPT = TABLE.of_kind("exempt")
 DESCRIPTION, = TABLE.of_kind("description")
+EVENTS = "fault/events"  # of the fault injector
 GUIDE, = TABLE.of_kind("teaching", recorded=False)

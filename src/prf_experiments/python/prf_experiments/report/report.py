@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from markupsafe import Markup
 
-from prf_experiments import geometry
+from prf_experiments import files, geometry
 from prf_experiments.judge import judge, target, timeline
 from prf_experiments.record import frames, recording
 from prf_experiments.report import figures, page
@@ -96,5 +96,4 @@ def write(path: str, bag: str, data: recording.Recording | None, content: dict,
     drawings = []
     if data is not None and content["verdict"] != "INVALID":
         drawings = draw(bag, data, demonstrated)
-    with open(path, "w", encoding="utf-8") as stream:
-        stream.write(render(content, data, drawings, scene, parameters))
+    files.write(path, render(content, data, drawings, scene, parameters))

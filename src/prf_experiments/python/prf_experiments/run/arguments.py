@@ -91,6 +91,8 @@ def value(name: str, text: str, arguments: dict[str, Argument]) -> Any:
         raise ArgumentError(f"unknown argument '{name}'")
     try:
         return arguments[name].parse(text)
+    except ArgumentError:
+        raise
     except ValueError:
         raise ArgumentError(f"invalid {name}:={text}, valid: {arguments[name].valid}") from None
 

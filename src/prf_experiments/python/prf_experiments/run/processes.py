@@ -145,6 +145,21 @@ class Launch:
 
 def _end_with_parent():
     LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a file that cannot grow is told as an error
+
+
+def left_over(log_folder: str) -> list[str]:
+    """Command lines of the processes of a session that are still there, by their ROS_LOG_DIR."""
+    mark, found = b"ROS_LOG_DIR=" + os.fsencode(log_folder) + b"\0", []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError):
+            with open(f"/proc/{pid}/environ", "rb") as stream:
+                ours = mark in stream.read() + b"\0"
+            with open(f"/proc/{pid}/cmdline", "rb") as stream:
+                command = stream.read().replace(b"\0", b" ").decode(errors="replace").strip()
+            if ours and command and int(pid) != os.getpid():
+                found.append(command)
+    return found
 
 
 class Recorder:

@@ -2,13 +2,13 @@
 """Plays a trial's sensor topics into the framework alone and compares its outputs."""
 import argparse
 import contextlib
-import json
 import os
 import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
 
+from prf_experiments import files
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session
@@ -82,10 +82,9 @@ def run(options: argparse.Namespace) -> int:
         os.makedirs(os.path.join(folder, "log"), exist_ok=True)
         ours, _, differences = compare(options.bag, replay(options.bag, folder, options.rate))
     if options.json:
-        with open(options.json, "w", encoding="utf-8") as stream:
-            json.dump({"identical": not differences, "differences": differences,
-                       "compared_messages": sum(entry.messages for entry in ours.values())},
-                      stream, indent=2)
+        files.write_json(options.json, {
+            "identical": not differences, "differences": differences,
+            "compared_messages": sum(entry.messages for entry in ours.values())})
     for (topic, publisher), entry in ours.items():
         print(f"{entry.messages:7d}  {topic} [{publisher}]")
     print("\n".join(differences) if differences else "the replay gave identical messages")

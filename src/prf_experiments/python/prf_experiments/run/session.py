@@ -16,6 +16,7 @@ import rosgraph
 import rospkg
 import yaml
 
+from prf_experiments import files
 from prf_experiments.record import recording, topics
 from prf_experiments.run import connections, processes
 
@@ -132,6 +133,7 @@ class Session:
     topics: list  # without leading slash
     links: set  # (topic, publisher, subscriber) without which nothing starts
     driver: str
+    may_end: tuple = ()  # nodes whose end is wanted
     progress: ProgressLine = field(default_factory=ProgressLine)
 
     def log(self, name: str) -> str:
@@ -181,15 +183,14 @@ class Session:
         tree = rosgraph.Master(connections.CALLER).getParam("/")
         for name in ("robot_description", "roslaunch", "run_id"):
             tree.pop(name, None)
-        with open(os.path.join(self.folder, "parameters.yaml"), "w", encoding="utf-8") as stream:
-            yaml.safe_dump(tree, stream)
+        files.write(os.path.join(self.folder, "parameters.yaml"), yaml.safe_dump(tree))
 
     def wait_for_driver(self, launch: processes.Launch, recorder: processes.Recorder,
                         status: Callable[[float], str]) -> float:
         """Until the driver has ended well. Returns the wall time it took, s."""
         started = time.monotonic()
         while not launch.has_ended(self.driver):
-            launch.check(may_end=[self.driver])
+            launch.check(may_end=[self.driver, *self.may_end])
             recorder.check()
             self.progress.show(status(time.monotonic() - started))
             time.sleep(0.1)
@@ -201,7 +202,7 @@ class Session:
     def close(self, launch: processes.Launch, recorder: processes.Recorder) -> None:
         """The closed bag, after every message under way has reached the recorder."""
         recorder.wait_until_idle()
-        launch.check(may_end=[self.driver])
+        launch.check(may_end=[self.driver, *self.may_end])
         recorder.close()
 
 
@@ -215,10 +216,14 @@ SENSOR_AND_TRUTH = topics.SENSORS + topics.GROUND_TRUTH
 
 def guarded(name: str, action: Callable[[], int]) -> int:
     """Runs action(); errors become one line on stderr. Returns the exit code."""
+    from prf_experiments.run.arguments import ArgumentError
     from prf_experiments.teach.demonstration import DemonstrationError
     try:
         with interruptible():
             return action()
+    except ArgumentError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 2
     except Interrupted as interruption:
         print(f"\n{name}: stopped by {interruption}", file=sys.stderr)
         return interruption.exit_code

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs one closed-loop trial: launch, record, simulate, judge, report."""
 import contextlib
-import json
 import os
 import subprocess
 import sys
 
 import rospkg
 
+from prf_experiments import files
+from prf_experiments.faults import catalogue, wiring
 from prf_experiments.judge import judge
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
@@ -37,6 +38,7 @@ def describe(values: dict) -> dict:
     words = ["rosrun prf_experiments run_trial", *trial_arguments.words(values)]
     return {"command": " ".join(words),
             "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
+            "files": trial_arguments.contents(values),
             "versions": versions()}
 
 
@@ -72,13 +74,18 @@ def evaluate(folder: str, description: dict, wall: float | None, failure: str,
     simulated = verdict.figures.get("duration_s")
     content = {**verdict.as_json(), **description, "wall_time_s": wall,
                "simulated_per_real_time": simulated / wall if simulated and wall else None}
-    with open(os.path.join(folder, "verdict.json"), "w", encoding="utf-8") as stream:
-        json.dump(content, stream, indent=2)
-        stream.write("\n")
     progress.show("drawing the report", always=True)
     scene = pictures.of(bag, data, content["figures"]) if content["figures"] else report.NOTHING
-    report.write(os.path.join(folder, "report.html"), bag, data, content,
-                 demonstration.read(skill(description["arguments"])), scene)
+    try:  # the verdict comes last: where there is one, everything is there
+        report.write(os.path.join(folder, "report.html"), bag, data, content,
+                     demonstration.read(skill(description["arguments"])), scene)
+        files.write_json(os.path.join(folder, "verdict.json"), content)
+    except OSError as error:
+        lost = judge.invalid(f"the results cannot be written: {error}"
+                             + (f"; before that: {failure}" if failure else ""))
+        content = {**content, **lost.as_json()}
+        with contextlib.suppress(OSError):
+            files.write_json(os.path.join(folder, "verdict.json"), content)
     progress.close()
     return content
 
@@ -89,14 +96,25 @@ def skill(values: dict) -> str:
 
 def session_of(values: dict, folder: str) -> session.Session:
     """The trial as a session that leaves its bag in `folder`."""
+    faults = catalogue.parse(values["fault"])
+    links = (connections.trial_links(SIMULATOR)
+             | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR))
     return session.Session(
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
         launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED
                           if values[name] is not None] + ["paused:=true"],
-        topics=topics.TABLE.recorded,
-        links=connections.trial_links(SIMULATOR)
-        | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR),
-        driver=SIMULATOR)
+        topics=topics.TABLE.recorded + wiring.recorded(faults),
+        links=wiring.rewired(links, faults) if faults else links,
+        driver=SIMULATOR, may_end=tuple(catalogue.ended_nodes(faults)))
+
+
+def check_time(values: dict) -> None:
+    """Refuses a time limit within which the skill cannot be executed."""
+    times = demonstration.read(skill(values)).times
+    needed = float(times[-1] - times[0])
+    if values["time_limit"] < needed:
+        raise args.ArgumentError(f"time_limit:={values['time_limit']:g} is too short, the "
+                                 f"demonstration takes {needed:g} s")
 
 
 def run(values: dict, folder: str | None = None) -> int:
@@ -104,7 +122,7 @@ def run(values: dict, folder: str | None = None) -> int:
 
     Without `folder` the trial gets a new one in the results folder.
     """
-    demonstration.read(skill(values))
+    check_time(values)
     description = describe(values)
     folder = (session.create_folder(values["results"], trial_arguments.name(values))
               if folder is None else session.use_folder(folder))
@@ -113,7 +131,7 @@ def run(values: dict, folder: str | None = None) -> int:
     failure, wall = "", None
     try:
         wall = simulate(trial, description)
-    except (session.SessionError, processes.ProcessError) as error:
+    except (session.SessionError, processes.ProcessError, OSError) as error:
         failure = str(error)
     finally:
         trial.progress.close()
@@ -134,7 +152,7 @@ def run(values: dict, folder: str | None = None) -> int:
 def main(words: list[str]) -> int:
     valid = trial_arguments.TRIAL
     if any(word in ("-h", "--help") for word in words):
-        print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + args.usage(valid))
+        print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + trial_arguments.usage())
         return EXIT_OK
     folder = None
     if len(words) > 1 and words[0] == "--into":

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The arguments of a trial, in one place. Imports no ROS: checked before anything is built."""
+import hashlib
 import os
+import re
 from collections.abc import Sequence
 
+from prf_experiments.faults import catalogue
 from prf_experiments.run import names
 from prf_experiments.run.arguments import (
     Argument,
@@ -15,6 +18,20 @@ from prf_experiments.run.arguments import (
     path,
     show,
 )
+from prf_experiments.run.arguments import usage as arguments_usage
+
+LONGEST_NAME = 200  # characters; a file system takes 255
+
+
+def faults():
+    def parse(text):
+        try:
+            catalogue.parse(text)
+        except catalogue.FaultError as error:
+            raise ArgumentError(f"invalid fault:={text}: {error}") from None
+        return text
+    return {"valid": "NAME[/TARGET][:AMOUNT][@TIME]", "parse": parse}
+
 
 # Given to trial.launch, and part of every result's name.
 NAMED = {
@@ -44,6 +61,7 @@ LAUNCHED = {
     "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),
     "real_time_factor": Argument(0.0, **number(0.0, 100.0),
                                  meaning="at most so fast, 0: as fast as it goes"),
+    "fault": Argument("", **faults(), meaning="what goes wrong, listed below; several with commas"),
     "demonstration": Argument(None, **path(), meaning="CSV file of the skill"),
 }
 RESULTS = {"results": Argument(os.path.abspath("results"), **path(),
@@ -70,8 +88,37 @@ def words(values: dict) -> list[str]:
             if name in NAMED or values[name] != argument.default]
 
 
+def contents(values: dict) -> dict[str, str]:
+    """{argument: SHA-256 of the file that it names}: what a trial is depends on the content."""
+    found = {}
+    for key in ("motion", "body_motion", "demonstration"):
+        if values.get(key) and os.path.isfile(values[key]):
+            with open(values[key], "rb") as stream:
+                found[key] = hashlib.sha256(stream.read()).hexdigest()
+    return found
+
+
+def same(values: dict, verdict: dict) -> bool:
+    """Whether a verdict is of the trial `values`; files count by their content."""
+    asked = contents(values)
+    return asked == verdict.get("files", {}) and all(
+        key in asked or verdict["arguments"].get(key) == values[key] for key in LAUNCHED)
+
+
 def name(values: dict) -> str:
     """Name of a trial, the same for the same arguments; good for a folder."""
-    short = {**values, "demonstration": os.path.basename(values["demonstration"] or "") or None,
-             **{key: os.path.basename(values[key]) for key in ("motion", "body_motion")}}
-    return "_".join(word.replace(":=", "-") for word in words(short))
+    files = contents(values)
+
+    def short(key):
+        base = os.path.basename(values[key] or "")
+        return f"{base}-{files[key][:8]}" if key in files else base or (values[key] and base)
+    brief = {**values, **{key: short(key) for key in ("motion", "body_motion", "demonstration")}}
+    full = "_".join(re.sub(r"[^\w.@+-]", "-", word.replace(":=", "-")) for word in words(brief))
+    if len(full) <= LONGEST_NAME:
+        return full
+    return full[:LONGEST_NAME] + "-" + hashlib.sha256(full.encode()).hexdigest()[:8]
+
+
+def usage() -> str:
+    """All arguments and all faults, for people."""
+    return arguments_usage(TRIAL) + "\n" + catalogue.usage()

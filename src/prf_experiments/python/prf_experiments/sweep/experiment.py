@@ -49,7 +49,7 @@ def parser() -> argparse.ArgumentParser:
         usage="run_experiment [EXPERIMENT [--option ...]] [name:=value ...]",
         description="Without EXPERIMENT: one trial.",
         epilog="arguments of trials [default]; sweeps take lists, as in motion:=light,heavy:\n"
-        + args.usage(trial_arguments.TRIAL))
+        + trial_arguments.usage())
     commands = result.add_subparsers(dest="experiment", metavar="EXPERIMENT")
     commands.add_parser("trial", help="one trial, as without any experiment")
     for name, meaning in STUDIES.items():

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all experiments share: axes, sweep, numbers as text, JSON and page."""
 import argparse
-import json
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from prf_experiments import files
 from prf_experiments.record import recording
 from prf_experiments.report import page
 from prf_experiments.report.page import Markup, Section
@@ -110,9 +110,8 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
         Section("Arguments that all trials share, and versions", body=[page.table(
             [*((name, args.show(value)) for name, value in shared.items()), *versions.items(),
              ("disk, MB", took / sweep.MEGABYTE)])])]
-    with open(path, "w", encoding="utf-8") as stream:
-        stream.write(page.render("study.html", title=study.title, command=command,
-                                 text=study.text(summary), sections=sections))
+    files.write(path, page.render("study.html", title=study.title, command=command,
+                                  text=study.text(summary), sections=sections))
 
 
 def reproducing(options: argparse.Namespace, named: Sequence[str]) -> str:
@@ -138,12 +137,10 @@ def run(study: Study, options: argparse.Namespace, command: str, named: Sequence
     summary = {"command": command, "versions": versions, **study.summarise(results),
                "trials": [{**result, "report": link(result["arguments"])} for result in results]}
     for path in filter(None, (os.path.join(folder, "summary.json"), options.json)):
-        with open(path, "w", encoding="utf-8") as stream:
-            json.dump(summary, stream, indent=2)
-            stream.write("\n")
+        files.write_json(path, summary)
     if options.results_page:
-        with open(options.results_page, "w", encoding="utf-8") as stream:
-            stream.write(results_page(study, reproducing(options, named), study.text(summary)))
+        files.write(options.results_page,
+                    results_page(study, reproducing(options, named), study.text(summary)))
     index = os.path.join(folder, "index.html")
     write_page(index, study, command, versions, results, summary)
     print(study.text(summary) + "\n" + index)

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TextIO
 
+from prf_experiments import files
 from prf_experiments.run import trial_arguments
 from prf_experiments.run.session import Interrupted, SessionError
 from prf_experiments.sweep import trial_runner
@@ -47,9 +48,10 @@ def finished(folder: str, values: dict) -> dict | None:
     content = trial_runner.read(trial_folder(folder, values))
     if content is None or content["verdict"] == "INVALID":
         return None
-    same = all(content["arguments"].get(name) == values[name]
-               for name in trial_arguments.LAUNCHED)
-    return content if same else None
+    if not trial_arguments.same(values, content):
+        return None
+    # A file may lie elsewhere now; its content is the same.
+    return {**content, "arguments": {name: values[name] for name in trial_arguments.LAUNCHED}}
 
 
 @contextlib.contextmanager
@@ -78,8 +80,7 @@ def begin(folder: str, versions: dict, any_version: bool) -> None:
                 f"{folder} holds trials of version {before.get('commit', before)}, this is "
                 f"{versions.get('commit', versions)}: go on with --any-version, or afresh with "
                 "another --name")
-    with open(path, "w", encoding="utf-8") as stream:
-        json.dump({"versions": versions}, stream, indent=2)
+    files.write_json(path, {"versions": versions})
 
 
 class Board:
@@ -154,6 +155,10 @@ def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
         attempt: Callable[[dict, str], dict] = trial_runner.run_process,
         board: Callable[[int, int], Board] = Board) -> list[dict]:
     """Verdicts of all trials in their order; those of an earlier, interrupted run are kept."""
+    names = [trial_arguments.name(values) for values in trials]
+    for row, name in enumerate(names):
+        if name in names[:row]:
+            raise SessionError(f"two trials are the same, both are called {name}")
     with locked(folder):
         begin(folder, versions, options.any_version)
         results = {row: content for row, values in enumerate(trials)

@@ -15,6 +15,7 @@ import sys
 import threading
 from collections.abc import Callable
 
+from prf_experiments import files
 from prf_experiments.run import trial_arguments
 
 ATTEMPTS = 2
@@ -82,7 +83,8 @@ def invalid(values: dict, folder: str, error: str) -> dict:
     os.makedirs(folder, exist_ok=True)
     return {"verdict": "INVALID", "inspected": False, "figures": {},
             "reason": lines[-1] if lines else "run_trial left no verdict",
-            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED}}
+            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
+            "files": trial_arguments.contents(values)}
 
 
 def read(folder: str) -> dict | None:
@@ -120,9 +122,7 @@ def execute(values: dict, folder: str, keep_bags: str,
     if os.path.exists(bag) and not keeps(keep_bags, content["verdict"]):
         os.remove(bag)
     content = {**content, "failed_attempts": reasons, "disk_bytes": size(part)}
-    with open(os.path.join(part, "verdict.json"), "w", encoding="utf-8") as stream:
-        json.dump(content, stream, indent=2)
-        stream.write("\n")
+    files.write_json(os.path.join(part, "verdict.json"), content)
     shutil.rmtree(folder, ignore_errors=True)
     os.rename(part, folder)
     return content

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who hears whom, and what is recorded, when faults stand between the nodes."""
+from collections.abc import Sequence
+
+from prf_experiments.faults import catalogue
+from prf_experiments.faults.catalogue import Fault
+
+INJECTOR, SECOND, SIMULATOR = "/fault_injector", "/second_publisher", "/platform_sim"
+Link = tuple[str, str, str]  # topic, publisher, subscriber
+
+
+def rewired(links: set[Link], faults: Sequence[Fault]) -> set[Link]:
+    """The links of a trial with its faults: readers of a faulty topic hear the injector."""
+    relayed = {"/" + topic for topic in catalogue.relayed(faults)}
+    leaping = any(fault.name == "clock" for fault in faults)
+    found: set[Link] = set()
+    for topic, publisher, subscriber in links:
+        to_simulator = subscriber == SIMULATOR
+        if subscriber == "/recorder":
+            found.add((topic, publisher, subscriber))
+        elif topic in relayed and (not to_simulator or topic == "/joint_command"):
+            found |= {(topic, publisher, INJECTOR), ("/faulty" + topic, INJECTOR, subscriber)}
+        elif leaping and topic not in ("/tf", "/tf_static"):
+            found.add(("/leapt" + topic, publisher, INJECTOR))
+            found.add((topic, INJECTOR, subscriber) if to_simulator
+                      else ("/leapt" + topic, publisher, subscriber))
+        else:
+            found.add((topic, publisher, subscriber))
+    return found | {("/" + topic, INJECTOR, "/recorder") for topic in recorded(faults)}
+
+
+def recorded(faults: Sequence[Fault]) -> list[str]:
+    """Topics that a bag holds beside those of every trial."""
+    return ["faulty/" + topic for topic in catalogue.relayed(faults)]
