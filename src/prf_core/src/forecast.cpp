@@ -2,6 +2,7 @@
 #include "prf_core/forecast.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "prf_core/require.hpp"
@@ -22,6 +23,12 @@ void validate_prediction(const std::string& name, const TargetPrediction& predic
 void TargetForecast::validate() const {
   require(since_measurement >= Duration{0}, "since_measurement", to_seconds(since_measurement),
           ">= 0 s");
+  require(measured_motion.velocity.allFinite(), "measured_velocity",
+          measured_motion.velocity.transpose(), "finite");
+  require(measured_motion.velocity_covariance.allFinite(), "measured_velocity_covariance",
+          "not finite", "finite");
+  require(std::isfinite(measured_motion.speed) && measured_motion.speed >= 0, "measured_speed",
+          measured_motion.speed, "finite and >= 0 m/s");
   const bool has_target = status == TargetStatus::kTracking || status == TargetStatus::kCoasting;
   require(!has_target || !predictions.empty(), "predictions", "[]",
           "at least one while the target is tracked or coasted");

@@ -6,6 +6,7 @@
 namespace prf_predictor {
 namespace {
 
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 prf_msgs::TargetPrediction to_message(const prf_core::TargetPrediction& prediction) {
@@ -39,6 +40,10 @@ prf_msgs::TargetForecast to_message(const TrackState& state,
   if (state.belief) {
     message.since_measurement = prf_ros::to_ros_duration(state.stamp - state.last_accepted);
   }
+  const prf_core::MeasuredMotion motion = state.measured_motion.at(state.stamp);
+  message.measured_velocity = prf_ros::to_vector3(motion.velocity);
+  Eigen::Map<RowMajor3d>(message.measured_velocity_covariance.data()) = motion.velocity_covariance;
+  message.measured_speed = motion.speed;
   for (const auto& prediction : predictions) message.predictions.push_back(to_message(prediction));
   return message;
 }

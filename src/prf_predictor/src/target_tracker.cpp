@@ -135,17 +135,23 @@ TrackState TargetTracker::step(const TrackState& before, Stamp stamp,
   state.belief = before.belief;
   state.last_accepted = before.last_accepted;
   state.candidate = before.candidate;
+  state.measured_motion = before.measured_motion;
 
+  const TagMeasurement* nearest = measurements.empty() ? nullptr : &measurements.front();
   const bool is_lost = to_seconds(stamp - state.last_accepted) > params_.lost_after;
   if (state.belief && !is_lost) {
     Correction target(*state.belief, to_seconds(stamp - before.stamp));
     state.reinitialised = !target.is_finite();
     state.belief.reset();
     if (!state.reinitialised) {
-      state.measured = accept(target, measurements, to_seconds(stamp - state.last_accepted), state);
+      const double since_measurement = to_seconds(stamp - state.last_accepted);
+      nearest = nearest_to(*target.motion, measurements, params_.gate_speed * since_measurement)
+                    .measurement;
+      state.measured = accept(target, measurements, since_measurement, state);
       state.belief = Belief{std::move(target.motion), std::move(target.rotation)};
     }
   }
+  const bool passed_gate = state.measured;
   if (!measurements.empty() && !state.measured) {
     if (state.belief) {
       state.gated = true;
@@ -158,6 +164,10 @@ TrackState TargetTracker::step(const TrackState& before, Stamp stamp,
   if (state.measured) {
     state.last_accepted = stamp;
     state.candidate.reset();
+  }
+  if (nearest != nullptr) {
+    state.measured_motion.add(stamp, nearest->position, nearest->position_covariance,
+                              passed_gate || !before.belief);
   }
   update_status(state);
   return state;

@@ -125,6 +125,11 @@ prf_core::TargetForecast to_core(const prf_msgs::TargetForecast& message) {
                                      to_core(prediction.twist.angular)},
                                     Eigen::Map<const RowMajor6d>(prediction.covariance.data())});
   }
+  using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  forecast.measured_motion = {
+      to_core(message.measured_velocity),
+      Eigen::Map<const RowMajor3d>(message.measured_velocity_covariance.data()),
+      message.measured_speed};
   forecast.validate();
   return forecast;
 }

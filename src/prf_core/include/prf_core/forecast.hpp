@@ -30,16 +30,26 @@ struct TargetPrediction {
   }
 };
 
+// What the latest measured positions alone say of the motion, as in prf_msgs/TargetForecast.
+struct MeasuredMotion {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             // m/s
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // zero: no measured velocity
+  double speed = 0.0;  // m/s, >= 0, root mean square over the last 0.25 s, less the noise
+
+  [[nodiscard]] bool has_velocity() const { return velocity_covariance.trace() > 0.0; }
+};
+
 struct TargetForecast {
   Stamp stamp{0};
   TargetStatus status = TargetStatus::kNoTarget;
   Duration since_measurement{0};              // at the stamp, since the last accepted measurement
   std::vector<TargetPrediction> predictions;  // horizons rise strictly from 0
+  MeasuredMotion measured_motion;
 
   // Demands finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0,
-  // since_measurement >= 0, and at least one prediction while tracking or coasting. Whether the
-  // covariance is positive definite is not checked. Throws std::invalid_argument naming the member,
-  // its value and the bound.
+  // since_measurement >= 0, a measured speed >= 0, and at least one prediction while tracking or
+  // coasting. Whether the covariance is positive definite is not checked. Throws
+  // std::invalid_argument naming the member, its value and the bound.
   void validate() const;
 };
 

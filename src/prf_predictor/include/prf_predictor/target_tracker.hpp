@@ -24,6 +24,7 @@
 #include <prf_core/forecast.hpp>
 #include <vector>
 
+#include "prf_predictor/measured_motion.hpp"
 #include "prf_predictor/rotation_predictor.hpp"
 #include "prf_predictor/tag_measurement.hpp"
 #include "prf_predictor/target_predictor.hpp"
@@ -65,6 +66,8 @@ struct TrackState {
     int hits = 0;
   };
   std::optional<Candidate> candidate;
+
+  MeasuredMotionWindow measured_motion;  // of the measurement nearest to the target in each image
 
   bool measured = false;         // a measurement of this image passed the gate
   double nis = 0.0;              // of the nearest measurement's position, accepted or not
