@@ -57,7 +57,8 @@ std::optional<ElbowCircle> elbow_circle(const Eigen::Vector3d& shoulder_to_wrist
   static const double kFarthest = std::hypot(kUpperArm + kForearm, kElbowOffset);
   static const double kNearest = std::hypot(kUpperArm - kForearm, kElbowOffset);
   const double distance = shoulder_to_wrist.norm();
-  if (distance > kFarthest + slack || distance < kNearest - slack) return std::nullopt;
+  const bool closes = distance <= kFarthest + slack && distance >= kNearest - slack;
+  if (!closes) return std::nullopt;
 
   const double d = std::clamp(distance, kNearest, kFarthest);
   constexpr double kForearmSquared = kForearm * kForearm + kElbowOffset * kElbowOffset;
@@ -111,7 +112,7 @@ double arm_angle(const Frames& frames) {
 }
 
 double arm_angle(const JointVector& q) {
-  check_finite(q, "q");
+  check_angles(q, "q");
   return arm_angle(link_frames(q));
 }
 

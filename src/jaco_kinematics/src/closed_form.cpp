@@ -114,7 +114,7 @@ bool polish(const Eigen::Isometry3d& pose, JointVector* q) {
 
 std::vector<IkSolution> inverse_at_arm_angle(const Eigen::Isometry3d& pose, double phi) {
   const Eigen::Isometry3d target = checked_pose(pose);
-  prf_core::require_finite("phi", phi);
+  prf_core::require_between("phi", phi, -kLargestAngle, kLargestAngle, "rad");
   std::vector<IkSolution> solutions;
   for (int branch = 0; branch < kBranches; ++branch) {
     auto q = branch_solution(target, phi, branch);

@@ -85,16 +85,19 @@ Eigen::Vector3d shoulder_point(double q1) {
   return {kShoulderOffset * std::sin(q1), kShoulderOffset * std::cos(q1), kShoulderHeight};
 }
 
-void check_finite(const JointVector& values, const char* name) {
-  if (values.allFinite()) return;
+void check_angles(const JointVector& values, const char* name) {
   for (int i = 0; i < 7; ++i) {
-    prf_core::require_finite(std::string(name) + "[" + std::to_string(i) + "]", values[i]);
+    if (std::abs(values[i]) <= kLargestAngle) continue;  // false for not-a-number
+    prf_core::require_between(std::string(name) + "[" + std::to_string(i) + "]", values[i],
+                              -kLargestAngle, kLargestAngle, "rad");
   }
 }
 
 Eigen::Isometry3d checked_pose(const Eigen::Isometry3d& pose) {
   constexpr double kTolerance = 1e-6;  // of every entry of R^T R; float messages are within it
   prf_core::require(pose.matrix().allFinite(), "pose", pose.matrix(), "finite");
+  const double farthest = pose.translation().cwiseAbs().maxCoeff();
+  prf_core::require_between("the pose's farthest coordinate", farthest, 0.0, kLargestDistance, "m");
   const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
   const double deviation = (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   prf_core::require(deviation <= kTolerance && pose.linear().determinant() > 0.0,
@@ -153,12 +156,12 @@ Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& from,
 }
 
 Eigen::Isometry3d forward(const JointVector& q) {
-  check_finite(q, "q");
+  check_angles(q, "q");
   return link_frames(q).end_effector;
 }
 
 Jacobian jacobian(const JointVector& q) {
-  check_finite(q, "q");
+  check_angles(q, "q");
   return jacobian(link_frames(q));
 }
 

@@ -57,8 +57,9 @@ double wrap_angle(double angle);
 inline bool is_limited(int joint) { return joint == 1 || joint == 3 || joint == 5; }
 bool within_limits(const JointVector& q);
 
-// The pose with its rotation made orthonormal; std::invalid_argument if it is no rotation.
+// The pose with its rotation made orthonormal; std::invalid_argument if it is no rotation or the
+// place is beyond kLargestDistance.
 Eigen::Isometry3d checked_pose(const Eigen::Isometry3d& pose);
-void check_finite(const JointVector& values, const char* name);
+void check_angles(const JointVector& values, const char* name);
 
 }  // namespace jaco_kinematics

@@ -141,22 +141,19 @@ IkResult result_of(IkStatus status, const JointVector& q, const Eigen::Isometry3
 }  // namespace
 
 void IkParams::validate() const {
-  using prf_core::require;
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  const auto not_negative = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  using prf_core::require_between;
   for (int i = 0; i < 7; ++i) {
-    require(positive(weight[i]), "weight[" + std::to_string(i) + "]", weight[i], "finite and > 0");
+    require_between("weight[" + std::to_string(i) + "]", weight[i], 1e-3, 1e3);
   }
-  require(positive(limit_margin), "limit_margin", limit_margin, "finite and > 0 rad");
-  require(not_negative(limit_weight), "limit_weight", limit_weight, "finite and >= 0 rad^2");
-  require(positive(null_space_margin), "null_space_margin", null_space_margin,
-          "finite and > 0 rad");
-  require(not_negative(null_space_step), "null_space_step", null_space_step, "finite and >= 0 rad");
+  require_between("limit_margin", limit_margin, 1e-3, kPi, "rad");
+  require_between("limit_weight", limit_weight, 0.0, 1e3, "rad^2");
+  require_between("null_space_margin", null_space_margin, 1e-3, kPi, "rad");
+  require_between("null_space_step", null_space_step, 0.0, 0.3, "rad");
 }
 
 IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkParams& params) {
   params.validate();
-  check_finite(seed, "seed");
+  check_angles(seed, "seed");
   const Eigen::Isometry3d target = checked_pose(pose);
   const IkCost cost(seed, params);
 

@@ -31,7 +31,8 @@ std::optional<PoseStep> decoupled_step(const Frames& frames,
   const Eigen::Vector3d first = a.col(0).cross(a.col(1));
   Eigen::Vector4d null;
   null << a.col(1).dot(last), -a.col(0).dot(last), first.dot(a.col(3)), -first.dot(a.col(2));
-  if (null.squaredNorm() < kLeastVolume * kLeastVolume) return std::nullopt;
+  const bool regular = null.squaredNorm() >= kLeastVolume * kLeastVolume;
+  if (!regular) return std::nullopt;
   // The inverse of B = [a5 a6 a7] by Cramer's rule.
   const Eigen::Vector3d a5 = frames.rotation[4].col(2);
   const Eigen::Vector3d a6 = frames.rotation[5].col(2);

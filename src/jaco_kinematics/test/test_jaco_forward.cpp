@@ -131,12 +131,15 @@ TEST(JacoJacobian, EqualsCentralDifferences) {
   }
 }
 
-TEST(JacoForward, RefusesJointsThatAreNotFinite) {
-  JointVector q = JointVector::Constant(M_PI);
-  q[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(forward(q), std::invalid_argument);
-  EXPECT_THROW(jacobian(q), std::invalid_argument);
-  EXPECT_THROW(arm_angle(q), std::invalid_argument);
+// Fault 43: joint angles that are not finite or beyond any arm -> refused by every function
+TEST(JacoForward, RefusesJointsThatAreNoAngles) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1.1e4, -1e300}) {
+    JointVector q = JointVector::Constant(M_PI);
+    q[4] = bad;
+    EXPECT_THROW(forward(q), std::invalid_argument);
+    EXPECT_THROW(jacobian(q), std::invalid_argument);
+    EXPECT_THROW(arm_angle(q), std::invalid_argument);
+  }
 }
 
 }  // namespace

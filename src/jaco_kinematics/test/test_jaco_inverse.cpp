@@ -150,42 +150,5 @@ TEST(JacoInverseAtArmAngle, GivesEightExactBranchesInOrder) {
   }
 }
 
-TEST(JacoInverse, RefusesWhatIsNoPoseSeedOrOption) {
-  const JointVector seed = ready_joints();
-  Eigen::Isometry3d pose = stand_off_pose();
-  pose.translation().y() = std::numeric_limits<double>::infinity();
-  EXPECT_THROW((void)inverse(pose, seed), std::invalid_argument);
-  EXPECT_THROW((void)inverse_at_arm_angle(pose, 0.0), std::invalid_argument);
-
-  pose = stand_off_pose();
-  pose.linear() *= 1.01;
-  EXPECT_THROW((void)inverse(pose, seed), std::invalid_argument);
-  pose = stand_off_pose();
-  pose.linear().col(2) *= -1.0;
-  EXPECT_THROW((void)inverse(pose, seed), std::invalid_argument);
-
-  pose = stand_off_pose();
-  JointVector bad_seed = seed;
-  bad_seed[6] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)inverse(pose, bad_seed), std::invalid_argument);
-  EXPECT_THROW((void)inverse_at_arm_angle(pose, std::nan("")), std::invalid_argument);
-
-  IkParams params;
-  params.weight[2] = 0.0;
-  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
-  params = IkParams();
-  params.limit_margin = -0.1;
-  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
-  params = IkParams();
-  params.null_space_margin = 0.0;
-  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
-  params = IkParams();
-  params.null_space_step = -1e-4;
-  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
-  params = IkParams();
-  params.limit_weight = -1.0;
-  EXPECT_THROW((void)inverse(pose, seed, params), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace jaco_kinematics

@@ -205,6 +205,54 @@ TEST(StepToRest, KeepsTheDirectionAndStopsAsFastAsAllowed) {
   EXPECT_EQ(step_to_rest(state, kDt, limits).state.position, state.position);
 }
 
+// Fault A9: an acceleration limit lowered in full motion -> the arm still stops with `braking`,
+// before its position limits
+TEST(StepToRest, BrakesWithTheBrakingLimitAndSpeedsUpWithTheAcceleration) {
+  MotionLimits limits = some_limits();
+  limits.acceleration.setConstant(0.1);
+  limits.braking.setConstant(4.0);
+  MotionState state;
+  state.position[1] = 1.45;  // 0.05 rad from its limit
+  state.velocity << 0.5, 0.5, 0.0, 0.1, 0.2, -0.6, 0.4;
+  for (int i = 0; i < 15; ++i) {
+    const MotionState next = step_to_rest(state, kDt, limits).state;
+    ASSERT_LE((next.velocity - state.velocity).cwiseAbs().maxCoeff(), 4.0 * kDt + kRounding);
+    ASSERT_LE(next.position[1], 1.5);
+    state = next;
+  }
+  EXPECT_LE(state.velocity.norm(), 1e-12);
+  for (int i = 0; i < 3; ++i) {
+    const MotionState next = step_toward(state, rest({1, 1, 1, 1, 1, 1, 1}), kDt, limits).state;
+    ASSERT_LE((next.velocity - state.velocity).cwiseAbs().maxCoeff(), 0.1 * kDt + kRounding);
+    state = next;
+  }
+}
+
+// Fault 37: a joint outside its limits -> it may come back at its own pace or stay, and never goes
+// farther out
+TEST(JointMotion, ComesBackFromOutsideTheLimitsWithoutAJump) {
+  const MotionLimits limits = some_limits();
+  MotionState state;
+  state.position[3] = 1.7;
+  EXPECT_EQ(step_to_rest(state, kDt, limits).state.position, state.position);
+  const VelocityRange range = allowed_velocities(state, kDt, limits);
+  EXPECT_EQ(range.upper[3], 0.0);
+  EXPECT_LT(range.lower[3], 0.0);
+  MotionState outward = rest({0, 0, 0, 5.0, 0, 0, 0});
+  EXPECT_EQ(step_toward(state, outward, kDt, limits).state.position[3], 1.7);
+  double farthest = 1.7;
+  for (int i = 0; i < 200; ++i) {
+    const MotionState next = step_toward(state, MotionState(), kDt, limits).state;
+    ASSERT_LE(next.position[3], farthest);
+    ASSERT_LE(std::abs(next.position[3] - state.position[3]), 0.6 * kDt + kRounding);
+    ASSERT_LE(std::abs(next.velocity[3] - state.velocity[3]), 4.0 * kDt + kRounding);
+    farthest = next.position[3];
+    state = next;
+  }
+  EXPECT_LE(farthest, 1.5);
+}
+
+// Fault 43: state, goal or period that is not finite -> refused
 TEST(JointMotion, RefusesInputThatIsNotFinite) {
   const MotionLimits limits = some_limits();
   MotionState bad;
@@ -228,6 +276,9 @@ TEST(MotionLimits, RefuseImpossibleValues) {
   EXPECT_THROW(limits.validate(), std::invalid_argument);
   limits = some_limits();
   limits.acceleration[2] = std::nan("");
+  EXPECT_THROW(limits.validate(), std::invalid_argument);
+  limits = some_limits();
+  limits.braking[2] = 0.9 * limits.acceleration[2];
   EXPECT_THROW(limits.validate(), std::invalid_argument);
 }
 

@@ -21,6 +21,11 @@ JointVector random_joints(std::mt19937& random, double size) {
   return JointVector::NullaryExpr([&] { return uniform(random); });
 }
 
+Twist random_twist(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  return Twist::NullaryExpr([&] { return uniform(random); });
+}
+
 // Of |W (J v - x)|^2 / 2 + kNullSpaceWeight |v - v_p|^2 / 2.
 JointVector gradient(const ResolvedRateProblem& request, const JointVector& v) {
   Twist squared;
@@ -44,7 +49,7 @@ TEST(ResolvedRate, IsTheMinimumWithinTheRange) {
   int at_bounds = 0;
   for (int i = 0; i < 300; ++i) {
     const ResolvedRateProblem request{
-        jaco_kinematics::jacobian(home() + random_joints(random, 0.3)), Twist::Random(),
+        jaco_kinematics::jacobian(home() + random_joints(random, 0.3)), random_twist(random),
         random_joints(random, 1.0), kWeight};
     const JointVector middle = random_joints(random, 0.3);
     const VelocityRange range{middle.array() - 0.2, middle.array() + 0.2};

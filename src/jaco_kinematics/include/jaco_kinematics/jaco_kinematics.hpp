@@ -16,8 +16,10 @@
 // above or below S, the base's x axis takes the place of the vertical.
 //
 // Metres, radians. Joints 1, 3, 5 and 7 are continuous; 2, 4 and 6 lie in [0, 2 pi).
-// All functions are pure. They throw std::invalid_argument for input that is not finite and for a
-// pose whose rotation is not orthonormal to 1e-6.
+// All functions are pure. They throw std::invalid_argument for input that is not finite, for angles
+// beyond kLargestAngle and translations beyond kLargestDistance, and for a pose whose rotation is
+// not orthonormal to 1e-6. Joints outside their limits are no error: forward() and jacobian() take
+// them, and as a seed they are a place to start from.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,6 +27,10 @@
 #include <vector>
 
 namespace jaco_kinematics {
+
+// [rad], [m] Beyond any arm; up to there an angle is exact to 2e-12 rad.
+inline constexpr double kLargestAngle = 1e4;
+inline constexpr double kLargestDistance = 1e4;
 
 using JointVector = Eigen::Matrix<double, 7, 1>;
 using Jacobian = Eigen::Matrix<double, 6, 7>;
@@ -64,18 +70,18 @@ enum class IkStatus { kSolved, kOutOfReach, kNoSolutionWithinLimits };
 // limits. inverse() seeks the least cost, but does not guarantee it: it returns the local minimum
 // if that is within 0.35 rad of the seed, otherwise the cheapest of at most 4 solutions.
 struct IkParams {
-  // Squared distance is sum_i weight_i (q_i - seed_i)^2. The default measures time of travel
+  // Squared distance is sum_i weight_i (q_i - seed_i)^2, 1e-3 to 1e3. The default measures time of travel
   // relative to the slowest joints: (36 deg/s / 48 deg/s)^2 = 0.5625.
   JointVector weight = (JointVector() << 1.0, 1.0, 1.0, 1.0, 0.5625, 0.5625, 0.5625).finished();
   // Penalty limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a
   // limit.
-  double limit_margin = 0.3;    // [rad], > 0
-  double limit_weight = 0.001;  // [rad^2], >= 0; small: continuity comes first
+  double limit_margin = 0.3;    // [rad], 0.001 to pi
+  double limit_weight = 0.001;  // [rad^2], 0 to 1000; small: continuity comes first
   // Null-space objective: while joint 2 or 6 is within null_space_margin of a limit or of its
   // singularity at pi, the solution is moved away from there by at most null_space_step of
   // self-motion. With each result as the next seed this is a steady drift; the hand stays.
-  double null_space_margin = 0.5;   // [rad], > 0
-  double null_space_step = 0.0004;  // [rad] in the norm of q, >= 0; 0.04 rad/s at 100 Hz
+  double null_space_margin = 0.5;   // [rad], 0.001 to pi
+  double null_space_step = 0.0004;  // [rad] in the norm of q, 0 to 0.3; 0.04 rad/s at 100 Hz
 
   void validate() const;
 };
