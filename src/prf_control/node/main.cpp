@@ -101,10 +101,13 @@ class ArmControllerNode {
     out.add("ticks without set-point", joiner.missing_setpoints);
     out.add("times that the set-points fell silent", joiner.silences);
     out.add("set-points late", joiner.late_setpoints);
+    out.add("set-points far ahead", joiner.far_ahead_setpoints);
     out.add("set-points invalid", counts.invalid_setpoints);
     out.add("joint_states incomplete", incomplete_joint_states_);
     out.add("joint_states not finite", counts.faulty_joints);
     out.add("joint_states of a stamp seen before", joiner.duplicate_ticks);
+    out.add("joint_states old", joiner.old_ticks);
+    out.add("joint_states far ahead", joiner.far_ahead_ticks);
     out.add("jumps of a joint goal refused", counts.refused_jumps);
     out.add("ticks of a branch change", counts.branch_changing);
     out.add("starts from measured joints", counts.restarts);

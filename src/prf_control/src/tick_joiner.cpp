@@ -3,17 +3,16 @@
 
 namespace prf_control {
 
-using prf_core::Duration;
 using prf_core::StampOrder;
 
-TickJoiner::TickJoiner(Duration max_wait) : joiner_({max_wait, Duration{0}, Duration{0}}) {}
+TickJoiner::TickJoiner(prf_core::Duration max_wait) : joiner_({max_wait}) {}
 
 void TickJoiner::add_joints(const JointSample& joints) {
   const StampOrder order = joiner_.advance(joints.stamp);
-  if (order == StampOrder::kDuplicate) {
-    ++counts_.duplicate_ticks;
-    return;
-  }
+  if (order == StampOrder::kDuplicate) ++counts_.duplicate_ticks;
+  if (order == StampOrder::kOld) ++counts_.old_ticks;
+  if (order == StampOrder::kFarAhead) ++counts_.far_ahead_ticks;
+  if (!prf_core::is_accepted(order)) return;
   if (order == StampOrder::kBackwardJump) ++counts_.new_runs;
   joiner_.push_primary(joints.stamp, joints);
 }
@@ -21,6 +20,7 @@ void TickJoiner::add_joints(const JointSample& joints) {
 void TickJoiner::add_setpoint(prf_core::Stamp stamp, const Setpoint& setpoint) {
   const StampOrder order = joiner_.push_secondary(stamp, setpoint);
   if (order == StampOrder::kDuplicate || order == StampOrder::kOld) ++counts_.late_setpoints;
+  if (order == StampOrder::kFarAhead) ++counts_.far_ahead_setpoints;
 }
 
 std::optional<TickJoiner::Joined> TickJoiner::next() {

@@ -138,7 +138,9 @@ TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(100), hold_setpoint());
   EXPECT_FALSE(ask(controller, joints_at(101), beside_home(0.02)).restarted);
+  for (const int tick : {498, 499}) controller.add_joints(joints_at(tick));
   EXPECT_TRUE(ask(controller, joints_at(500), beside_home(0.02)).restarted);
+  for (const int tick : {1, 2}) controller.add_joints(joints_at(tick));
   const ControlResult first = ask(controller, joints_at(3), beside_home(0.02));
   EXPECT_TRUE(first.restarted);
   EXPECT_EQ(first.command->position, home());

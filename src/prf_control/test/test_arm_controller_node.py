@@ -81,10 +81,17 @@ class ArmControllerNode(unittest.TestCase):
 
     def setUp(self):
         ArmControllerNode.run_begin -= 1000
+        for tick in (-3, -2, -1):  # several in a row show that the clock went back
+            self.joints.publish(joint_state(self.stamp(tick), HOME))
+            self.setpoints.publish(hold(self.stamp(tick)))
+        with self.received:
+            self.assertTrue(self.received.wait_for(
+                lambda: all(one and one[-1].header.stamp == self.stamp(-1)
+                            for one in (self.commands, self.statuses)), PATIENCE))
         del self.commands[:], self.statuses[:]
 
     def stamp(self, tick):
-        return rospy.Time.from_sec(self.run_begin) + rospy.Duration(0, int(1e9 * TICK) * tick)
+        return rospy.Time.from_sec(self.run_begin) + rospy.Duration.from_sec(TICK * tick)
 
     def answers(self, count):
         with self.received:

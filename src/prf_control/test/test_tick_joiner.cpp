@@ -123,11 +123,13 @@ TEST(TickJoiner, JoinsTheSameWhateverTheInterleaving) {
 TEST(TickJoiner, BeginsANewRunWhenTicksGoBackInTime) {
   for (const bool setpoint_first : {true, false}) {
     TickJoiner joiner(30 * kTick);
-    for (int i = 100; i < 110; ++i) {
+    for (int i = 200; i < 210; ++i) {
       joiner.add_joints(tick_at(i * kTick));
-      if (i < 109) joiner.add_setpoint(i * kTick, tagged(i));
+      if (i < 209) joiner.add_setpoint(i * kTick, tagged(i));
     }
     EXPECT_EQ(drain(joiner).size(), 9u);
+    for (const int i : {-2, -1}) joiner.add_joints(tick_at(i * kTick));
+    EXPECT_EQ(joiner.counts().old_ticks, 2u);
     if (setpoint_first) joiner.add_setpoint(0 * kTick, tagged(0.5));
     joiner.add_joints(tick_at(0 * kTick));
     if (!setpoint_first) joiner.add_setpoint(0 * kTick, tagged(0.5));
@@ -142,25 +144,27 @@ TEST(TickJoiner, BeginsANewRunWhenTicksGoBackInTime) {
 
 TEST(TickJoiner, ForgetsSetpointsOfTheLastRun) {
   TickJoiner joiner(30 * kTick);
-  joiner.add_joints(tick_at(3 * kTick));
-  joiner.add_setpoint(4 * kTick, tagged(4.0));
+  joiner.add_joints(tick_at(203 * kTick));
+  joiner.add_setpoint(204 * kTick, tagged(4.0));
   EXPECT_EQ(drain(joiner).size(), 1u);
-  joiner.add_joints(tick_at(kTick));
+  joiner.add_setpoint(205 * kTick, tagged(5.0));
+  for (int i = -1; i <= 1; ++i) joiner.add_joints(tick_at(i * kTick));
   for (int i = 2; i <= 4; ++i) joiner.add_joints(tick_at(i * kTick));
   EXPECT_TRUE(drain(joiner).empty());
+  EXPECT_EQ(joiner.counts().new_runs, 1u);
 }
 
 TEST(TickJoiner, RecoversFromASetpointStampedFarInTheFuture) {
   TickJoiner joiner(30 * kTick);
-  joiner.add_setpoint(1'000'000 * kTick, tagged(9.0));
   joiner.add_joints(tick_at(kTick));
-  EXPECT_EQ(drain(joiner), (std::vector<Tagged>{{kTick, -1.0, false}}));
-  joiner.add_joints(tick_at(2 * kTick));
-  joiner.add_setpoint(2 * kTick, tagged(2.0));
-  drain(joiner);
-  joiner.add_joints(tick_at(3 * kTick));
-  joiner.add_setpoint(3 * kTick, tagged(3.0));
-  EXPECT_EQ(drain(joiner), (std::vector<Tagged>{{3 * kTick, 3.0, false}}));
+  joiner.add_setpoint(1'000'000 * kTick, tagged(9.0));
+  EXPECT_EQ(joiner.counts().far_ahead_setpoints, 1u);
+  for (int i = 1; i <= 3; ++i) {
+    if (i > 1) joiner.add_joints(tick_at(i * kTick));
+    EXPECT_TRUE(drain(joiner).empty());
+    joiner.add_setpoint(i * kTick, tagged(i));
+    EXPECT_EQ(drain(joiner), (std::vector<Tagged>{{i * kTick, static_cast<double>(i), false}}));
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,24 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const ClockBounds kBounds{seconds(1), seconds(2)};
+const ClockBounds kBounds{seconds(1), seconds(2), 3};
+
+// A letter for each stamp: . newer, = duplicate, o old, < backward jump, a far ahead, > forward.
+std::string orders(ClockMonitor& clock, const std::vector<int>& stamps_ms) {
+  std::string text;
+  for (const int stamp : stamps_ms) {
+    const StampOrder foreseen = clock.classify(milliseconds(stamp));
+    const StampOrder order = clock.observe(milliseconds(stamp));
+    EXPECT_EQ(foreseen, order) << stamp;
+    text += std::string(".=o<a>")[static_cast<std::size_t>(order)];
+  }
+  return text;
+}
+
+std::string orders(const std::vector<int>& stamps_ms) {
+  ClockMonitor clock(kBounds);
+  return orders(clock, stamps_ms);
+}
 
 TEST(ClockMonitor, TakesAnyFirstStamp) {
   for (const Stamp stamp : {Stamp{0}, Stamp{seconds(1'700'000'000)}, Stamp{-seconds(1)}}) {
@@ -32,15 +50,14 @@ TEST(ClockMonitor, ClassifiesByTheNewestStamp) {
   };
   const Duration ns{1};
   const Stamp newest = seconds(10);
-  for (const Row& row :
-       std::vector<Row>{{newest + ns, StampOrder::kNewer, true},
-                        {newest + seconds(2), StampOrder::kNewer, true},
-                        {newest + seconds(2) + ns, StampOrder::kFarAhead, false},
-                        {newest, StampOrder::kDuplicate, false},
-                        {newest - ns, StampOrder::kOld, false},
-                        {newest - seconds(1), StampOrder::kOld, false},
-                        {newest - seconds(1) - ns, StampOrder::kBackwardJump, true},
-                        {Stamp{0}, StampOrder::kBackwardJump, true}}) {
+  for (const Row& row : std::vector<Row>{{newest + ns, StampOrder::kNewer, true},
+                                         {newest + seconds(2), StampOrder::kNewer, true},
+                                         {newest + seconds(2) + ns, StampOrder::kFarAhead, false},
+                                         {newest, StampOrder::kDuplicate, false},
+                                         {newest - ns, StampOrder::kOld, false},
+                                         {newest - seconds(1), StampOrder::kOld, false},
+                                         {newest - seconds(1) - ns, StampOrder::kOld, false},
+                                         {Stamp{0}, StampOrder::kOld, false}}) {
     ClockMonitor clock(kBounds);
     clock.observe(newest);
     EXPECT_EQ(clock.classify(row.stamp), row.order) << row.stamp.count();
@@ -50,86 +67,113 @@ TEST(ClockMonitor, ClassifiesByTheNewestStamp) {
   }
 }
 
-TEST(ClockMonitor, WithABoundOfZeroTakesEveryStepBackForAJump) {
-  ClockMonitor clock({Duration{0}});
-  clock.observe(seconds(1));
-  EXPECT_EQ(clock.observe(seconds(1)), StampOrder::kDuplicate);
-  EXPECT_EQ(clock.observe(seconds(1) - Duration{1}), StampOrder::kBackwardJump);
-}
-
-TEST(ClockMonitor, ByDefaultFindsNothingFarAhead) {
-  ClockMonitor clock;
-  clock.observe(Stamp{0});
-  EXPECT_EQ(clock.observe(seconds(2'000'000'000)), StampOrder::kNewer);
-}
-
-TEST(ClockMonitor, IsNotMovedByWhatIsOutOfOrder) {
+TEST(ClockMonitor, TellsFromOneStampWhetherItLiesBeyondABound) {
   ClockMonitor clock(kBounds);
+  EXPECT_FALSE(clock.jumps_back(Stamp{0}) || clock.jumps_ahead(seconds(99)));
   clock.observe(seconds(10));
-  for (int i = 1; i <= 20; ++i) {  // slowly back, less than the bound from one to the next
-    const StampOrder order = clock.classify(seconds(10) - i * milliseconds(100));
-    EXPECT_EQ(order, i <= 10 ? StampOrder::kOld : StampOrder::kBackwardJump) << i;
-  }
+  EXPECT_FALSE(clock.jumps_back(seconds(9)) || clock.jumps_ahead(seconds(12)));
+  EXPECT_TRUE(clock.jumps_back(seconds(9) - Duration{1}));
+  EXPECT_TRUE(clock.jumps_ahead(seconds(12) + Duration{1}));
+}
+
+// Fault 11: the clock jumps back -> believed at the third message in a row, there a new run begins
+TEST(ClockMonitor, BelievesABackwardJumpThatSeveralStampsConfirm) {
+  EXPECT_EQ(orders({9000, 9010, 0, 10, 20, 30}), "..oo<.");
+  EXPECT_EQ(orders({9000, 0, 2000, 4000, 6000}), ".oo<.");
+  ClockMonitor at_once({seconds(1), seconds(2), 1});
+  EXPECT_EQ(orders(at_once, {9000, 0, 10}), ".<.");
+}
+
+// Fault 13: the clock leaps forward -> followed from the third message in a row
+TEST(ClockMonitor, FollowsAForwardJumpThatSeveralStampsConfirm) {
+  EXPECT_EQ(orders({0, 10, 9000, 9010, 9020, 9030}), "..aa>.");
+}
+
+TEST(ClockMonitor, TakesAJumpOnlyFromStampsInOrderAndInARow) {
+  EXPECT_EQ(orders({9000, 0, 10, 9010, 20, 30, 9020}), ".oo.oo.");  // one in order between
+  EXPECT_EQ(orders({9000, 0, 10, 8990, 20, 30, 9010}), ".ooooo.");  // also a slightly late one
+  EXPECT_EQ(orders({9000, 0, 10, 9000, 20, 30, 9010}), ".oo=oo.");  // also a duplicate
+  EXPECT_EQ(orders({9000, 30, 20, 10, 20, 30}), ".oooo<");          // falling
+  EXPECT_EQ(orders({9000, 0, 0, 0, 0, 10, 10, 20}), ".oooooo<");    // the same again
+  EXPECT_EQ(orders({9000, 0, 2001, 4002, 6003}), ".oooo");          // too far apart
+  EXPECT_EQ(orders({9000, 0, 20000, 10, 20010, 20}), ".oaoao");     // now back, now ahead
+  EXPECT_EQ(orders({9000, 12000, 15000, 18000, 21000}), ".aaaa");   // no two agree
+  EXPECT_EQ(orders({9000, 20000, 20010, 9010, 20020, 20030, 9020}), ".aa.aa.");
+}
+
+TEST(ClockMonitor, CanTakeEveryLaterStampForTheNextOne) {
+  ClockMonitor clock({seconds(1), Duration::max(), 3});
+  EXPECT_EQ(clock.observe(Stamp{0}), StampOrder::kNewer);
+  EXPECT_EQ(clock.observe(seconds(2'000'000'000)), StampOrder::kNewer);
 }
 
 TEST(ClockMonitor, GoesOnFromWhereItIsRestarted) {
   ClockMonitor clock(kBounds);
-  clock.observe(seconds(10));
+  EXPECT_EQ(orders(clock, {90000, 0, 10}), ".oo");
   clock.restart(seconds(100));
-  EXPECT_EQ(clock.observe(seconds(101)), StampOrder::kNewer);
+  EXPECT_EQ(orders(clock, {20, 101000}), "o.");
   clock.restart();
-  EXPECT_EQ(clock.observe(seconds(3)), StampOrder::kNewer);
+  EXPECT_EQ(orders(clock, {3000}), ".");
 }
 
-// One line for each message pushed: what passed, "!" when the held one was refuted.
-std::string passed_through(FarAheadHold<int>& hold, const std::vector<int>& stamps_ms) {
-  std::string text;
-  for (const int stamp : stamps_ms) {
-    const auto result = hold.push(milliseconds(stamp), stamp);
-    if (result.refuted) text += "!";
-    for (const auto& one : result.passed) {
-      EXPECT_EQ(one.stamp, milliseconds(one.message));
-      text += std::to_string(one.message);
-      if (one.order == StampOrder::kFarAhead) text += "+";
-      if (one.order == StampOrder::kBackwardJump) text += "<";
-      text += " ";
+// A stream with a stamp each 10 ms in which single messages are wrong. `wrong` gives their stamp.
+class Disturbed : public testing::TestWithParam<unsigned> {
+ protected:
+  int uniform(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
+
+  // Late or early by up to an hour, the same again, or what a delayed copy of the stream brings.
+  int wrong(int now) {
+    switch (uniform(0, 4)) {
+      case 0:
+        return now - uniform(1, 3'600'000);
+      case 1:
+        return now + uniform(2001, 3'600'000);
+      case 2:
+        return now;
+      case 3:
+        return now - 1500;
+      default:
+        return now + 2500;
     }
-    text += "|";
   }
-  return text;
+
+  std::mt19937 random_{GetParam()};
+};
+
+// Fault 40: one message late, early or doubled -> it is dropped, no new run begins, all others
+// count
+TEST_P(Disturbed, LosesNoMessageInOrderToSingleWrongOnes) {
+  ClockMonitor clock(kBounds);
+  for (int i = 0; i < 1000; ++i) {
+    const int now = 10'000'000 + 10 * i;
+    ASSERT_EQ(clock.observe(milliseconds(now)), StampOrder::kNewer) << i;
+    const int wrong_ones = uniform(0, 2);  // in a row
+    for (int k = 0; k < wrong_ones; ++k) {
+      const StampOrder order = clock.observe(milliseconds(wrong(now)));
+      ASSERT_FALSE(is_accepted(order)) << i;
+    }
+  }
 }
 
-TEST(FarAheadHold, PassesAnOrdinaryStreamAtOnce) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {100, 133, 1133, 1100, 1133}), "100 |133 |1133 |1100 |1133 |");
+TEST_P(Disturbed, FollowsEveryJumpOfAsManyStampsAsItNeeds) {
+  const int confirmations = uniform(1, 6);
+  ClockMonitor clock({seconds(1), seconds(2), confirmations});
+  int now = 10'000'000;
+  clock.observe(milliseconds(now));
+  for (int i = 0; i < 100; ++i) {
+    const bool back = uniform(0, 1) == 0;
+    now += back ? -uniform(20'000, 1'000'000) : uniform(20'000, 1'000'000);
+    for (int k = 1; k <= confirmations; ++k) {
+      now += uniform(1, 2000);
+      const StampOrder order = clock.observe(milliseconds(now));
+      ASSERT_EQ(is_accepted(order), k == confirmations) << k << " of " << confirmations;
+      if (k < confirmations) continue;
+      ASSERT_EQ(order, back ? StampOrder::kBackwardJump : StampOrder::kForwardJump);
+    }
+  }
 }
 
-TEST(FarAheadHold, DropsALoneStampFarAhead) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {100, 9000, 133, 166}), "100 ||!133 |166 |");
-}
-
-TEST(FarAheadHold, FollowsAClockThatLeaptForward) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {100, 9000, 9033, 9066}), "100 ||9000+ 9033 |9066 |");
-}
-
-TEST(FarAheadHold, HoldsTheNextOfTwoLeapsInARow) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {100, 9000, 20000, 20010}), "100 ||9000+ |20000+ 20010 |");
-}
-
-TEST(FarAheadHold, TakesAStampJustBeforeTheHeldOneForItsConfirmation) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {100, 9000, 8000}), "100 ||9000+ 8000 |");
-  FarAheadHold<int> other(seconds(1));
-  EXPECT_EQ(passed_through(other, {100, 9000, 7999, 7980}), "100 ||!|7999+ 7980 |");
-}
-
-TEST(FarAheadHold, TellsABackwardJumpAlsoAfterARefutedStamp) {
-  FarAheadHold<int> hold(seconds(1));
-  EXPECT_EQ(passed_through(hold, {5000, 9000, 10, 43}), "5000 ||!10< |43 |");
-}
+INSTANTIATE_TEST_SUITE_P(Seeds, Disturbed, testing::Range(0u, 50u));
 
 }  // namespace
 }  // namespace prf_core

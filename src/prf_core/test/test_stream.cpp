@@ -21,7 +21,7 @@ std::string stamps_of(const StampedQueue<Message>& queue) {
 }
 
 StampedQueue<int> queue_of(std::initializer_list<int> stamps, std::size_t capacity = 1000) {
-  StampedQueue<int> queue({Duration{100}, Duration{1000}}, capacity);
+  StampedQueue<int> queue({Duration{100}, Duration{1000}, 3}, capacity);
   for (const int stamp : stamps) queue.push(Stamp{stamp}, stamp);
   return queue;
 }
@@ -38,8 +38,16 @@ TEST(StampedQueue, StoresRisingStampsOnly) {
 
 TEST(StampedQueue, DropsTheOldRunWhenTheClockGoesBack) {
   StampedQueue<int> queue = queue_of({500, 600});
-  EXPECT_EQ(queue.push(Stamp{20}, 1), StampOrder::kBackwardJump);
-  EXPECT_EQ(stamps_of(queue), "20 ");
+  for (const int stamp : {10, 20}) EXPECT_EQ(queue.push(Stamp{stamp}, 1), StampOrder::kOld);
+  EXPECT_EQ(stamps_of(queue), "500 600 ");
+  EXPECT_EQ(queue.push(Stamp{30}, 1), StampOrder::kBackwardJump);
+  EXPECT_EQ(stamps_of(queue), "30 ");
+}
+
+TEST(StampedQueue, StoresFromTheStampThatProvesThatTheClockLeapt) {
+  StampedQueue<int> queue = queue_of({500, 9000, 9010});
+  EXPECT_EQ(queue.push(Stamp{9020}, 1), StampOrder::kForwardJump);
+  EXPECT_EQ(stamps_of(queue), "500 9020 ");
 }
 
 TEST(StampedQueue, DropsTheOldestBeyondItsCapacity) {

@@ -46,11 +46,11 @@ void TickGate::begin_at(Stamp first_tick) {
 }
 
 PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
-  const StampOrder order = ticks_.clock().classify(stamp);
-  if (order == StampOrder::kDuplicate) return PushResult::kOld;
-  const bool new_run = order == StampOrder::kBackwardJump;
+  const bool new_run = ticks_.clock().classify(stamp) == StampOrder::kBackwardJump;
   if (new_run) begin_new_run();
-  ticks_.push(stamp, hand);
+  const StampOrder order = ticks_.push(stamp, hand);
+  if (order == StampOrder::kFarAhead) return PushResult::kFarAhead;
+  if (!prf_core::is_accepted(order)) return PushResult::kOld;
   if (!first_tick_) begin_at(stamp);
   return new_run ? PushResult::kNewRun : PushResult::kAccepted;
 }
@@ -58,14 +58,10 @@ PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
 PushResult TickGate::push_forecast(ForecastArrival arrival) {
   const Stamp stamp = arrival.stamp;
   if (is_far_ahead(stamp)) return PushResult::kFarAhead;
-  const auto newest = forecasts_.clock().newest();
-  const auto known = newest ? newest : first_tick_;
-  const bool new_run = known && stamp < *known - kClockJump;
-  if (new_run) begin_new_run();
   if (precedes_run(stamp)) return PushResult::kOld;
-  if (forecasts_.push(stamp, std::move(arrival)) != StampOrder::kNewer) return PushResult::kOld;
+  if (!prf_core::is_accepted(forecasts_.push(stamp, std::move(arrival)))) return PushResult::kOld;
   forecast_silence_.heard();
-  return new_run ? PushResult::kNewRun : PushResult::kAccepted;
+  return PushResult::kAccepted;
 }
 
 PushResult TickGate::push_plan_result(PlanResult result) {
@@ -73,7 +69,7 @@ PushResult TickGate::push_plan_result(PlanResult result) {
   // A result follows its progress, and that its tick: without one it belongs to another run.
   if (!first_tick_ || stamp < *first_tick_) return PushResult::kOld;
   if (is_far_ahead(stamp)) return PushResult::kFarAhead;
-  if (plan_results_.push(stamp, std::move(result)) != StampOrder::kNewer) return PushResult::kOld;
+  if (!prf_core::is_accepted(plan_results_.push(stamp, std::move(result)))) return PushResult::kOld;
   plan_silence_.heard();
   return PushResult::kAccepted;
 }

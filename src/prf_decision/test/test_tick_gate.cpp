@@ -196,7 +196,10 @@ TEST(TickGate, DropsEverythingWhenTheTicksGoBack) {
   TickGate gate(kGate);
   gate.push_forecast(forecast(Stamp{0}));
   tick_through(gate, 0, 8);
+  gate.push_tick(milliseconds(1000));
+  gate.push_tick(milliseconds(2000));
   TickGate fresh(kGate);
+  for (const int ms : {40, 50}) EXPECT_EQ(gate.push_tick(milliseconds(ms)), PushResult::kOld);
   EXPECT_EQ(gate.push_tick(milliseconds(60)), PushResult::kNewRun);
   fresh.push_tick(milliseconds(60));
   EXPECT_EQ(describe(*gate.next()), describe(*fresh.next()));
@@ -205,13 +208,14 @@ TEST(TickGate, DropsEverythingWhenTheTicksGoBack) {
   EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(60))), PushResult::kAccepted);
 }
 
-TEST(TickGate, DropsEverythingWhenTheForecastsGoBackByMoreThanASecond) {
+TEST(TickGate, DropsForecastsThatGoBackAndStaysInItsRun) {
   TickGate gate(kGate);
-  gate.push_forecast(forecast(milliseconds(1500)));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(400))), PushResult::kNewRun);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(433))), PushResult::kAccepted);
   gate.push_tick(std::chrono::seconds(5));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(466))), PushResult::kNewRun);
+  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(5))), PushResult::kAccepted);
+  for (const int ms : {400, 433, 466, 500}) {
+    EXPECT_EQ(gate.push_forecast(forecast(milliseconds(ms))), PushResult::kOld);
+  }
+  EXPECT_EQ(gate.push_tick(milliseconds(5010)), PushResult::kAccepted);
 }
 
 TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {

@@ -32,7 +32,7 @@ void CameraTransforms::add(const tf2_msgs::TFMessage& message, bool is_static) {
 }
 
 void CameraTransforms::begin_run(Stamp stamp) {
-  if (clock_.classify(stamp) != StampOrder::kBackwardJump) return;
+  if (!clock_.jumps_back(stamp)) return;
   buffer_.clear();
   clock_.restart();
 }

@@ -23,8 +23,6 @@ using prf_ros::to_core;
 using Readiness = CameraTransforms::Readiness;
 using ArrayPtr = prf_msgs::TagDetectionArrayConstPtr;
 
-constexpr Duration kFarAhead = std::chrono::seconds(1);
-
 class TargetPredictorNode {
  public:
   TargetPredictorNode(ros::NodeHandle node, const TargetPredictorParams& params)
@@ -52,19 +50,21 @@ class TargetPredictorNode {
   void on_detections(const ros::MessageEvent<const prf_msgs::TagDetectionArray>& event) {
     health_.report_publisher(event.getPublisherName());
     const ArrayPtr array = event.getConstMessage();
-    const auto result = hold_.push(to_core(array->header.stamp), array);
-    if (result.refuted) health_.drop("stamp far in the future");
-    for (const auto& next : result.passed) {
-      if (next.order == StampOrder::kBackwardJump) begin_run(next.stamp);
-      newest_ = next.stamp;
-      waiting_.push_back(next.message);
+    const Stamp stamp = to_core(array->header.stamp);
+    const Stamp before = clock_.newest().value_or(stamp);
+    const StampOrder order = clock_.observe(stamp);
+    if (order == StampOrder::kBackwardJump) begin_run(before, stamp);
+    if (order == StampOrder::kFarAhead) {
+      health_.drop("stamp far in the future");
+    } else {
+      waiting_.push_back(array);
     }
     process_ready_images();
   }
 
-  void begin_run(Stamp stamp) {
+  void begin_run(Stamp before, Stamp stamp) {
     ROS_WARN("detection stamps went back from %.3f to %.3f s: new run",
-             prf_core::to_seconds(newest_), prf_core::to_seconds(stamp));
+             prf_core::to_seconds(before), prf_core::to_seconds(stamp));
     for (; !waiting_.empty(); waiting_.pop_front()) process(*waiting_.front(), {});
     transforms_.begin_run(stamp);
     health_.publish_now();
@@ -76,7 +76,7 @@ class TargetPredictorNode {
       const ArrayPtr array = waiting_.front();
       const auto camera = camera_at(*array);
       const bool is_overdue =
-          newest_ > to_core(array->header.stamp) + from_seconds(params_.tf_wait);
+          *clock_.newest() > to_core(array->header.stamp) + from_seconds(params_.tf_wait);
       if (camera.readiness == Readiness::kWait && !is_overdue) break;
       waiting_.pop_front();
       process(*array, camera);
@@ -132,9 +132,8 @@ class TargetPredictorNode {
   TargetPredictorParams params_;
   CameraTransforms transforms_;
   TargetTracker tracker_;
-  prf_core::FarAheadHold<ArrayPtr> hold_{kFarAhead};
+  prf_core::ClockMonitor clock_;  // of the images
   std::deque<ArrayPtr> waiting_;  // for tf
-  Stamp newest_{0};               // of the images
   Health health_;
   ros::Publisher publisher_;
   std::vector<ros::Subscriber> subscribers_;

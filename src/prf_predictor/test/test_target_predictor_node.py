@@ -107,8 +107,11 @@ class TargetPredictorNode(unittest.TestCase):
         self.begin_run()
 
     def begin_run(self):
-        self.tf.publish(arm_tf(5000.0))
-        for stamp in (5000.0, 5000.03):
+        for stamp in (5000.0, 5000.03, 5000.06):  # so many prove a jump
+            self.tf.publish(arm_tf(stamp))
+            self.images.publish(detections(stamp, count=0))
+        rospy.rostime.wallsleep(0.1)
+        for stamp in (99.9, 99.93, 99.96):
             self.images.publish(detections(stamp, count=0))
         rospy.rostime.wallsleep(0.3)
         self.forecasts.clear()
@@ -237,13 +240,15 @@ class TargetPredictorNode(unittest.TestCase):
         self.images.publish(detections(100.05))
         self.expect(1)
         self.send_tf(900.0, 900.2)
-        self.images.publish(detections(900.05))
+        for stamp in (900.05, 900.08):
+            self.images.publish(detections(stamp))
         rospy.rostime.wallsleep(0.2)
         self.assertEqual(len(self.forecasts), 1)
-        self.images.publish(detections(900.08))
+        for stamp in (900.1, 900.15):
+            self.images.publish(detections(stamp))
         self.expect(3)
         self.assertEqual([round(f.header.stamp.to_sec(), 3) for f in self.forecasts],
-                         [100.05, 900.05, 900.08])
+                         [100.05, 900.1, 900.15])
         self.assertTrue(all(f.status == TargetForecast.LOST for f in self.forecasts[1:]))
 
     def test_second_publisher_is_reported(self):

@@ -59,7 +59,11 @@ TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack)
   EXPECT_EQ(old.arrival, Arrival::kTooOld);
   EXPECT_EQ(old.state.status, TargetStatus::kNoTarget);
   EXPECT_TRUE(same(tracker.process(last.state.stamp, {}).state, last.state));
-  const auto anew = tracker.process(start - std::chrono::seconds(5), {});
+  const Stamp earlier = start - std::chrono::seconds(5);
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(tracker.process(earlier + i * kFrame, {}).arrival, Arrival::kTooOld);
+  }
+  const auto anew = tracker.process(earlier + 2 * kFrame, {});
   EXPECT_EQ(anew.arrival, Arrival::kBackwardJump);
   EXPECT_EQ(anew.state.status, TargetStatus::kNoTarget);
 }

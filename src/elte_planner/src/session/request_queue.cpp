@@ -4,8 +4,10 @@
 namespace elte_planner {
 
 void RequestQueue::add(const Progress& progress) {
-  const bool new_run = joiner_.advance(progress.stamp) == prf_core::StampOrder::kBackwardJump;
-  if (new_run) newest_named_ = prf_core::Stamp{0};
+  using prf_core::StampOrder;
+  const StampOrder order = joiner_.advance(progress.stamp);
+  if (!prf_core::is_accepted(order) && order != StampOrder::kDuplicate) return;
+  if (order == StampOrder::kBackwardJump) newest_named_ = prf_core::Stamp{0};
   if (progress.forecast_stamp <= newest_named_) return;
   newest_named_ = progress.forecast_stamp;
   joiner_.push_primary(progress.stamp, progress.forecast_stamp, progress);

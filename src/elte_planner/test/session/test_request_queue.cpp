@@ -88,6 +88,8 @@ TEST(RequestQueue, StartsANewRunWhenStampsGoBack) {
     queue.add(progress(50'060, 50'000));
     EXPECT_EQ(drained(queue).size(), 1u);
     queue.add(forecast(50'033));
+    for (const std::int64_t stamp : {140, 150}) queue.add(progress(stamp, 100));
+    EXPECT_TRUE(drained(queue).empty());
     if (forecast_first) {
       queue.add(forecast(100));
       queue.add(progress(160, 100));

@@ -2,7 +2,8 @@
 // Joins each control tick (measured joints) with the set-point of the same stamp: the StreamJoiner
 // of prf_core with the ticks as primary stream, and counts of what was lost.
 //
-// A second message of one stamp is dropped. Every step back of the ticks begins a new run.
+// A tick that comes twice, late or far ahead is dropped. A new run begins when several ticks in a
+// row agree that the clock went back (prf_core/clock_monitor.hpp).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,11 @@ namespace prf_control {
 
 struct JoinerCounts {
   std::uint64_t duplicate_ticks = 0;
+  std::uint64_t old_ticks = 0;
+  std::uint64_t far_ahead_ticks = 0;
   std::uint64_t new_runs = 0;
-  std::uint64_t late_setpoints = 0;     // came after their tick was decided, or twice
+  std::uint64_t late_setpoints = 0;  // came after their tick was decided, or twice
+  std::uint64_t far_ahead_setpoints = 0;
   std::uint64_t missing_setpoints = 0;  // ticks without
   std::uint64_t silences = 0;           // times that the set-points were given up
 };

@@ -22,10 +22,10 @@ namespace prf_core {
 // Messages by stamp, oldest first, with the clock of their stream. Beyond `capacity` the oldest
 // are dropped; no return value tells that.
 //
-//   order of a pushed stamp     effect
-//   kNewer                      stored
-//   kDuplicate, kOld, kFarAhead not stored
-//   kBackwardJump               the messages stored before are dropped, the new one is stored
+//   order of a pushed stamp       effect
+//   kNewer, kForwardJump          stored
+//   kDuplicate, kOld, kFarAhead   not stored
+//   kBackwardJump                 the messages stored before are dropped, the new one is stored
 template <typename Message>
 class StampedQueue {
  public:
@@ -40,7 +40,7 @@ class StampedQueue {
   StampOrder push(Stamp stamp, Message message) {
     const StampOrder order = clock_.observe(stamp);
     if (order == StampOrder::kBackwardJump) items_.clear();
-    if (order == StampOrder::kNewer || order == StampOrder::kBackwardJump) {
+    if (is_accepted(order)) {
       items_.push_back({stamp, std::move(message)});
       if (items_.size() > capacity_) items_.pop_front();
     }

@@ -62,7 +62,7 @@ enum class PushResult {
   kAccepted,
   kOld,       // not newer than the one before, or older than the run: dropped
   kFarAhead,  // more than a second ahead of the ticks: dropped
-  kNewRun     // ticks went back, or forecasts by more than a second: all earlier data is dropped
+  kNewRun     // several ticks in a row say that the clock went back: all earlier data is dropped
 };
 
 class TickGate {
@@ -86,10 +86,10 @@ class TickGate {
   [[nodiscard]] bool plan_result_is_due() const;
 
   GateParams params_;
-  // Every step back of the ticks begins a new run; the planner's results follow the ticks.
-  prf_core::StampedQueue<std::optional<Pose>> ticks_{{Duration{0}}};
-  prf_core::StampedQueue<ForecastArrival> forecasts_;
-  prf_core::StampedQueue<PlanResult> plan_results_{{Duration::max()}};
+  // The ticks alone begin a new run. What is far ahead of them is dropped, whatever its stream.
+  prf_core::StampedQueue<std::optional<Pose>> ticks_;
+  prf_core::StampedQueue<ForecastArrival> forecasts_{{std::chrono::seconds(1), Duration::max()}};
+  prf_core::StampedQueue<PlanResult> plan_results_{{Duration::max(), Duration::max()}};
   prf_core::SilenceMonitor forecast_silence_;
   prf_core::SilenceMonitor plan_silence_;
   std::optional<Stamp> first_tick_;

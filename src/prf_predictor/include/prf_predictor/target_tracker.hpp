@@ -119,7 +119,7 @@ class TargetTracker {
   TrackerParams params_;
   std::shared_ptr<const TargetPredictor> predictor_;
   double gate_;
-  prf_core::ClockMonitor clock_{{kHistory}};
+  prf_core::ClockMonitor clock_{{kHistory, Duration::max()}};
   std::deque<Entry> history_;
 };
 
