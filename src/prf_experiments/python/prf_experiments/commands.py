@@ -1,45 +1,48 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Commands that work on bags: judge, inspect, report, bag_digest."""
 import argparse
-import json
 
-from prf_experiments.judge import judge, timeline
+from prf_experiments import files
+from prf_experiments.judge import invariants, judge, reaction, timeline
 from prf_experiments.record import digest, recording
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration
 
-
-def _judged(bag):
-    """(recording or None, verdict)."""
-    try:
-        data = recording.read(bag)
-        return data, judge.judge(data)
-    except recording.RecordingError as error:
-        return None, judge.invalid(str(error))
+EXIT_INVALID, EXIT_VIOLATION = 3, 4
 
 
-def _write_json(path, content):
-    with open(path, "w", encoding="utf-8") as stream:
-        json.dump(content, stream, indent=2)
-        stream.write("\n")
+def _checked(data):
+    """(verdict, what the invariants say) of a recording."""
+    return judge.judge(data), invariants.check(data)
+
+
+def _exit_code(verdict, found):
+    return (EXIT_INVALID if verdict.verdict == "INVALID"
+            else EXIT_VIOLATION if found.violations else 0)
 
 
 def judge_main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
-        prog="judge", description=judge.__doc__, epilog="Exit 0 for S, P and F, 3 for INVALID.",
+        prog="judge", description=judge.__doc__, epilog="Exit 0 for S, P and F, 3 for INVALID, "
+        "4 for S, P and F with a broken invariant.",
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bag")
     parser.add_argument("--json", metavar="FILE", help="writes verdict and figures there")
     options = parser.parse_args(words)
 
     def action():
-        verdict = _judged(options.bag)[1]
+        try:
+            verdict, found = _checked(recording.read(options.bag))
+        except recording.RecordingError as error:
+            verdict, found = judge.invalid(str(error)), invariants.Findings()
         if options.json:
-            _write_json(options.json, verdict.as_json())
+            files.write_json(options.json, {**verdict.as_json(), "invariants": found.as_json()})
         print(f"{verdict.verdict}{' (inspected)' if verdict.inspected else ''}: {verdict.reason}")
         for name, value in verdict.figures.items():
             print(f"  {name}: {value:.4g}" if isinstance(value, float) else f"  {name}: {value}")
-        return 3 if verdict.verdict == "INVALID" else 0
+        for violation in found.violations:
+            print(f"  INVARIANT BROKEN: {violation}")
+        return _exit_code(verdict, found)
     return session.guarded("judge", action)
 
 
@@ -55,9 +58,9 @@ def inspect_main(words: list[str]) -> int:
         data = recording.read(options.bag)
         verdict = judge.judge(data)
         if options.json:
-            names = ("time_s", "off_axis_mm", "to_stand_off_mm", "event")
+            names = ("time_s", "off_axis_mm", "to_stand_off_mm", "following_mm", "event")
             lines = timeline.event_lines(data, verdict.figures)
-            _write_json(options.json, [dict(zip(names, line)) for line in lines])
+            files.write_json(options.json, [dict(zip(names, line)) for line in lines])
         print(timeline.text(data, verdict), end="")
         return 0
     return session.guarded("inspect", action)
@@ -73,15 +76,18 @@ def report_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
-        data, verdict = _judged(options.bag)
-        description = data.description if data else {}
+        data = recording.read(options.bag)
+        verdict, found = _checked(data)
+        description = data.description
         skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
                  or session.packaged("demonstrations", "inspect_box.csv"))
-        report.write(options.out, options.bag, data, {**verdict.as_json(), **description},
-                     demonstration.read(skill),
-                     pictures.of(options.bag, data, verdict.figures) if verdict.figures else report.NOTHING)
+        content = {**verdict.as_json(), "invariants": found.as_json(),
+                   "reaction": reaction.times(data), **description}
+        report.write(options.out, options.bag, data, content, demonstration.read(skill),
+                     pictures.of(options.bag, data, verdict.figures) if verdict.figures
+                     else report.NOTHING)
         print(options.out)
-        return 0
+        return _exit_code(verdict, found)
     return session.guarded("report", action)
 
 
@@ -100,7 +106,7 @@ def digest_main(words: list[str]) -> int:
         differences = (digest.differences(ours, digest.digests(options.other))
                        if options.other else None)
         if options.json:
-            _write_json(options.json, {"differences": differences, "streams": [
+            files.write_json(options.json, {"differences": differences, "streams": [
                 {"topic": topic, "publisher": publisher, "messages_count": entry.messages,
                  "sha256": entry.sha256} for (topic, publisher), entry in ours.items()]})
         if differences is None:

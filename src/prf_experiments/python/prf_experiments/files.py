@@ -11,6 +11,11 @@ def write(path: str, text: str) -> None:
 
     Raises OSError; nothing of the new content and nothing but it is then at `path`.
     """
+    if os.path.exists(path) and not os.path.isfile(path):  # a device or a pipe
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        return
+    path = os.path.realpath(path)  # what a link leads to, not the link
     part = f"{path}.{os.getpid()}.part"
     try:
         with open(part, "w", encoding="utf-8") as stream:

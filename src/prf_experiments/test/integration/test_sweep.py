@@ -122,7 +122,7 @@ class ReducedSweep(unittest.TestCase):
             self.assertEqual(page.title, "Trial S")
             self.assertIn("motion-none", page.current_url)
             self.assertIn("TRACKING", page.find_element("css selector", "pre.wide").text)
-            self.assertEqual(len(page.find_elements("css selector", "svg")), 4)
+            self.assertEqual(len(page.find_elements("css selector", "svg")), 5)
             drawn = page.execute_script(
                 "return Array.from(document.images).map(i => i.complete ? i.naturalWidth : 0)")
             self.assertGreaterEqual(len(drawn), 3)

@@ -58,7 +58,8 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
         forecasts=recording.Forecasts(images, np.ones(len(images), dtype=int),
                                       [np.array([0.0, 0.5])] * len(images),
                                       [np.array([[0.8, 0.0, 0.65]] * 2)] * len(images)),
-        plans=[], control=recording.Control(ticks, np.zeros(count, dtype=int), [""] * count),
+        plans=[], control=recording.Control(ticks, np.zeros(count, dtype=int), [""] * count,
+                                            np.zeros(count), np.zeros(count)),
         arm_base_in_body=ARM_BASE_IN_BODY)
 
 

@@ -29,6 +29,13 @@ def rewired(links: set[Link], faults: Sequence[Fault]) -> set[Link]:
     return found | {("/" + topic, INJECTOR, "/recorder") for topic in recorded(faults)}
 
 
+def replayed(links: set[Link], faults: Sequence[Fault], player: str) -> set[Link]:
+    """The links of a replay: faulty topics come from the bag, as they came in the trial."""
+    relayed = {"/" + topic for topic in catalogue.relayed(faults)}
+    return {("/faulty" + topic, player, subscriber) if topic in relayed
+            else (topic, publisher, subscriber) for topic, publisher, subscriber in links}
+
+
 def recorded(faults: Sequence[Fault]) -> list[str]:
     """Topics that a bag holds beside those of every trial."""
     return ["faulty/" + topic for topic in catalogue.relayed(faults)]

@@ -25,7 +25,7 @@ from prf_experiments import geometry
 from prf_experiments.judge import target
 from prf_experiments.record.recording import Contact, Recording
 from prf_msgs import enums, interfaces
-from prf_msgs.msg import ExecutionProgress
+from prf_msgs.msg import ControlStatus, ExecutionProgress
 
 SECOND = 1_000_000_000  # ns
 
@@ -190,6 +190,16 @@ def _lateral_statistics(recording, states, stamps, lateral):
     return 1e3 * float(np.mean(chosen)), 1e3 * float(np.std(chosen))
 
 
+def _following(recording):
+    """Mean and largest distance of the measured hand from the set-point, mm, or two None."""
+    errors = 1e3 * recording.control.position_errors[np.isin(
+        recording.control.codes, (ControlStatus.FOLLOWING, ControlStatus.LIMITED))[
+            :len(recording.control.position_errors)]]
+    errors = errors[np.isfinite(errors)]
+    return {"following_error_mean_mm": float(np.mean(errors)) if len(errors) else None,
+            "following_error_largest_mm": float(np.max(errors)) if len(errors) else None}
+
+
 def judge(recording: Recording) -> Verdict:
     """Verdict of a complete recording."""
     broken = defect(recording)
@@ -248,6 +258,7 @@ def judge(recording: Recording) -> Verdict:
         "execution_lateral_deviation_mm": execution_deviation,
         "tracking_lateral_mean_mm": tracking_mean,
         "tracking_lateral_deviation_mm": tracking_deviation,
+        **_following(recording),
         "forecast_horizon_s": horizon,
         "forecast_error_rms_mm": forecast_error,
         "fallen_s": None if fall is None else float(recording.seconds(fall)),

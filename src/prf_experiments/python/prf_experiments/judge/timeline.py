@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prf_experiments.judge import judge
+from prf_experiments.judge import judge, reaction
 from prf_experiments.record.recording import Recording
 from prf_msgs import enums
 from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
@@ -114,6 +114,12 @@ def _logged_warnings(data):
                         f"log of {warning.node}: {warning.text}")
 
 
+def _faults(data):
+    for fault, first, last, count, told in reaction.episodes(data):
+        span = f", {count} times within {1e-9 * (last - first):.2f} s" if count > 1 else ""
+        yield Event(first, "fault", f"FAULT {fault}{span}" + "".join(": " + what for what in told))
+
+
 def _milestones(data, figures):
     for key, text in (("reached_s", "reached, for 1.0 s by now"),
                       ("inspected_s", "inspected, for 2.0 s by now"), ("fallen_s", "fallen")):
@@ -136,24 +142,35 @@ def events(data: Recording, figures: dict) -> list[Event]:
     """All events in the order of time. `figures` are those of the verdict."""
     told = []
     for kind in (_phases(data), _detections(data), _forecasts(data), _plans(data), _control(data),
-                 _contacts(data), _logged_warnings(data), _milestones(data, figures)):
+                 _contacts(data), _logged_warnings(data), _faults(data), _milestones(data, figures)):
         told += _limited(data, kind)
     return sorted(told, key=lambda event: event.stamp)
 
 
-def event_lines(data: Recording, figures: dict) -> list[tuple[float, float, float, str]]:
-    """[(time s, mm off the axis, mm from the stand-off, text)] of every event."""
+def following_at(data: Recording, stamps: np.ndarray) -> np.ndarray:
+    """mm from the set-point to the measured hand at the stamps, NaN before the first status."""
+    errors, told = data.control.position_errors, data.control.stamps
+    row = np.searchsorted(told, stamps, side="right") - 1
+    if not len(errors):
+        return np.full(len(stamps), np.nan)
+    return np.where(row >= 0, 1e3 * errors[np.maximum(row, 0)], np.nan)
+
+
+def event_lines(data: Recording, figures: dict) -> list[tuple[float, float, float, float, str]]:
+    """[(time s, mm off the axis, mm from the stand-off, mm following error, text)] of each event."""
     stamps, lateral, along = judge.distances(data)
     lines = []
     for event in events(data, figures):
         row = min(int(np.searchsorted(stamps, event.stamp)), len(stamps) - 1)
         lines.append((float(data.seconds(event.stamp)), 1e3 * float(lateral[row]),
-                      1e3 * float(along[row] - judge.STAND_OFF), event.text))
+                      1e3 * float(along[row] - judge.STAND_OFF),
+                      float(following_at(data, stamps[row:row + 1])[0]), event.text))
     return lines
 
 
-def phase_lines(data: Recording) -> list[tuple[str, float, float, float, float]]:
-    """[(phase, s spent, mean, standard deviation and largest mm off the axis)]."""
+def phase_lines(data: Recording) -> list[tuple[str, float, float, float, float, float, float]]:
+    """[(phase, s spent, mean, standard deviation and largest mm off the axis, and the mean and
+    largest following error, mm)]."""
     stamps, lateral, _ = judge.distances(data)
     lines = []
     for state, name in enumerate(judge.STATES):
@@ -161,8 +178,14 @@ def phase_lines(data: Recording) -> list[tuple[str, float, float, float, float]]
         if rows.any():
             millimetres = 1e3 * lateral[rows]
             lines.append((name, 1e-9 * judge.TICK * int(rows.sum()), float(millimetres.mean()),
-                          float(millimetres.std()), float(millimetres.max())))
+                          float(millimetres.std()), float(millimetres.max()),
+                          *_mean_and_most(following_at(data, stamps[rows]))))
     return lines
+
+
+def _mean_and_most(values):
+    values = values[np.isfinite(values)]
+    return (float(values.mean()), float(values.max())) if len(values) else (np.nan, np.nan)
 
 
 def solve_times(data: Recording) -> np.ndarray:
@@ -185,12 +208,13 @@ def text(data: Recording, verdict: judge.Verdict) -> str:
     """The whole timeline, for a terminal of 100 columns or more."""
     inspected = " (inspected)" if verdict.inspected else ""
     lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", "",
-             "  time, s  off axis, mm  to stand-off, mm  event"]
-    lines += [f"{time:9.2f}  {off:12.0f}  {to:+16.0f}  {what}"
-              for time, off, to, what in event_lines(data, verdict.figures)]
-    lines += ["", "phase      spent, s  off axis, mm: mean     sd    most"]
+             "  time, s  off axis, mm  to stand-off, mm  following, mm  event"]
+    lines += [f"{time:9.2f}  {off:12.0f}  {to:+16.0f}  {following:13.1f}  {what}"
+              for time, off, to, following, what in event_lines(data, verdict.figures)]
+    lines += ["", "phase      spent, s  off axis, mm: mean     sd    most  following, mm: mean   most"]
     lines += [f"{name:<9}  {spent:8.2f}  {mean:18.1f}  {deviation:5.1f}  {most:6.1f}"
-              for name, spent, mean, deviation, most in phase_lines(data)]
+              f"  {followed:19.1f}  {farthest:5.1f}"
+              for name, spent, mean, deviation, most, followed, farthest in phase_lines(data)]
     times = solve_times(data)
     lines += [""]
     if len(times):

@@ -10,6 +10,8 @@ import hashlib
 from dataclasses import dataclass
 from typing import Any
 
+import rosbag
+
 from prf_experiments.record import recording, topics
 
 EXEMPT = {"/" + name for name in ["rosout_agg", topics.DESCRIPTION, *topics.EXEMPT]}
@@ -23,6 +25,13 @@ class Digest:
 
 def digests(path: str, topics: list[str] | None = None) -> dict[tuple[str, str], Digest]:
     """{(topic, publisher): Digest} of a bag; `topics` restricts it to those names."""
+    try:
+        return _digests(path, topics)
+    except (rosbag.ROSBagException, *recording.DAMAGES) as error:
+        raise recording.RecordingError(f"{path}: broken: {error}") from None
+
+
+def _digests(path, topics):
     hashes: dict[tuple[str, str], Any] = {}
     counts: dict[tuple[str, str], int] = {}
     with recording.open_bag(path) as bag:

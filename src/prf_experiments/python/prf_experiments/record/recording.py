@@ -324,7 +324,13 @@ def read(path: str, tag_id: int = 0) -> Recording:
     """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing."""
     if not os.path.exists(path):
         raise RecordingError(f"{path}: there is no such bag")
-    reader = _Reader(tag_id)
+    try:
+        return _read(path, _Reader(tag_id))
+    except (rosbag.ROSBagException, *DAMAGES) as error:
+        raise RecordingError(f"{path}: broken: {error}") from None
+
+
+def _read(path, reader):
     with open_bag(path) as bag:
         counts = {name.lstrip("/"): info.message_count
                   for name, info in bag.get_type_and_topic_info().topics.items()}
@@ -332,11 +338,8 @@ def read(path: str, tag_id: int = 0) -> Recording:
                    if not counts.get(name)]
         if missing:
             raise RecordingError(f"{path}: no message of " + ", ".join(missing))
-        try:
-            for topic, message, _ in bag.read_messages(topics=reader.topics):
-                reader.take(topic, message)
-        except (rosbag.ROSBagException, *DAMAGES) as error:
-            raise RecordingError(f"{path}: broken: {error}") from None
+        for topic, message, _ in bag.read_messages(topics=reader.topics):
+            reader.take(topic, message)
     arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
     if arm_base_in_body is None:
         raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}")

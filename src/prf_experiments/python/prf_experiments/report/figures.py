@@ -12,7 +12,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from prf_experiments.judge import judge
+from prf_experiments.judge import judge, reaction
 from prf_experiments.record.recording import Contact, Recording
 
 TRUE = {"color": "black", "linewidth": 1.2}
@@ -28,6 +28,7 @@ POSTERIORS: list[dict[str, Any]] = [  # in the order of judge.EXECUTION
 BOUND = {"color": "0.45", "linewidth": 0.8, "linestyle": (0, (6, 3))}
 SEEN = {"color": "0.25", "linestyle": "none", "marker": "|", "markersize": 5}
 BAR = "#56B4E9"
+FAULTY: dict[str, Any] = {"color": "0.6", "alpha": 0.35, "linewidth": 0.0, "zorder": 0}
 MAX_POINTS = 1500
 
 BOX_SIDE, BOX_DEPTH, BOX_ABOVE_TAG = 0.30, 0.20, -0.07  # m; the tag hangs above the box's centre
@@ -55,6 +56,33 @@ def _grid(axes):
     axes.grid(True, color="0.88", linewidth=0.6)
     axes.tick_params(labelsize=8)
     axes.margins(x=0.01)
+
+
+def shade_faults(panels, recording: Recording) -> None:
+    """Grey where faults were injected."""
+    for _, first, last, _, _ in reaction.episodes(recording):
+        begin, end = float(recording.seconds(first)), float(recording.seconds(last))
+        for panel in panels:
+            panel.axvspan(begin, max(end, begin + 0.05), **FAULTY)
+
+
+def following(recording: Recording) -> Markup:
+    """Position and rotation of the measured hand against its set-point, and the phase."""
+    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
+    position, rotation, phase = figure.subplots(3, 1, sharex=True)
+    control = recording.control
+    stamps = control.stamps[:len(control.position_errors)]
+    for panel, values, label in ((position, 1e3 * control.position_errors, "position, mm"),
+                                 (rotation, np.degrees(control.orientation_errors), "rotation, °")):
+        _grid(panel)
+        panel.plot(*thin(recording.seconds(stamps), values), **TRUE)
+        panel.set_ylabel(label, fontsize=9)
+        panel.set_ylim(bottom=0.0)
+    _grid(phase)
+    _states_panel(phase, recording)
+    phase.set_xlabel("time, s", fontsize=9)
+    shade_faults((position, rotation, phase), recording)
+    return svg(figure, "Following error in position and rotation, and phase, over time")
 
 
 def _states_panel(axes, recording):
@@ -99,6 +127,7 @@ def target_over_time(recording: Recording, truth: Series, measured: Series, pred
     _grid(phase)
     _states_panel(phase, recording)
     phase.set_xlabel("time, s", fontsize=9)
+    shade_faults([*panels, posterior, phase], recording)
     return svg(figure, "Target position, HMM posterior and phase over time")
 
 
@@ -136,6 +165,7 @@ def distances(recording: Recording, stamps: np.ndarray, lateral: np.ndarray, alo
     panels[3].set_yticks([0, 1, 10, 50], ["0", "1", "10", "50"])
     panels[3].set_ylabel("contact, N", fontsize=9)
     panels[3].set_xlabel("time, s", fontsize=9)
+    shade_faults(panels, recording)
     return svg(figure, "Distance of the tag from the optical axis and along it, contacts")
 
 

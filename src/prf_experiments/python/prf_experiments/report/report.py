@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from prf_experiments import files, geometry
-from prf_experiments.judge import judge, target, timeline
+from prf_experiments.judge import judge, reaction, target, timeline
 from prf_experiments.record import frames, recording
 from prf_experiments.report import figures, page
 from prf_experiments.report.page import Section
@@ -47,6 +47,8 @@ def draw(bag: str, data: recording.Recording,
         ("Distance to the target", "By ground truth; dashed lines are the bounds of the verdict.",
          figures.distances(data, camera_stamps, lateral, along,
                            judge.arm_contacts(data.contacts))),
+        ("Following", "From the set-point to the measured hand; faults are shaded.",
+         figures.following(data)),
         ("Path of the hand", "In the arm's base frame, which moves with the robot.",
          figures.paths_in_space(executed, demonstrated.poses[:, :3], last_plan,
                                 target.true(data)[1][-1])),
@@ -55,14 +57,30 @@ def draw(bag: str, data: recording.Recording,
     ]
 
 
+def fault_rows(data: recording.Recording) -> list[tuple]:
+    """[(fault, first s, last s, count, what)] of every episode of a fault."""
+    return [(fault, float(data.seconds(first)), float(data.seconds(last)), count, "; ".join(told))
+            for fault, first, last, count, told in reaction.episodes(data)]
+
+
 def sections(content: dict, data: recording.Recording | None,
              drawings: Sequence[tuple[str, str, Markup]], scene: Markup) -> list[Section]:
     """What a trial's page shows. `content` is what verdict.json holds."""
     pairs = content["figures"].get("largest_contact_by_pair_n", {})
     measures = [(name, value) for name, value in content["figures"].items()
                 if name != "largest_contact_by_pair_n"]
+    for part in ("invariants", "reaction"):
+        measures += [(name, value) for name, value in content.get(part, {}).items()
+                     if name != "violations"]
     measures += [(name, content.get(name)) for name in ("wall_time_s", "simulated_per_real_time")]
-    found = [Section("Scene", body=[scene])] if scene else []
+    violations = content.get("invariants", {}).get("violations", [])
+    found = [Section("INVARIANTS BROKEN", "What must hold in every trial did not hold in this one.",
+                     [page.table([(text,) for text in violations])])] if violations else []
+    if data is not None and data.fault_events:
+        found.append(Section("Faults", "Injected; shaded in the figures over time. Times in s.",
+                             [page.table(fault_rows(data),
+                                         ("fault", "from", "to", "messages or acts", "what"))]))
+    found += [Section("Scene", body=[scene])] if scene else []
     found += [Section(title, text, [drawing]) for title, text, drawing in drawings]
     if data is not None:
         told = timeline.text(data, judge.Verdict(content["verdict"], content["inspected"],

@@ -53,12 +53,15 @@ def number(low: float, high: float) -> dict[str, Any]:
     return {"valid": f"number {low:g}..{high:g}", "parse": parse}
 
 
+def plain_path(text: str) -> str:
+    """The absolute path; ROS reads `:=` and `$(` in it as something else. Raises ValueError."""
+    if not text or ":=" in text or "$(" in text:
+        raise ValueError
+    return os.path.abspath(os.path.expanduser(text))
+
+
 def path() -> dict[str, Any]:
-    def parse(text):
-        if not text:
-            raise ValueError
-        return os.path.abspath(os.path.expanduser(text))
-    return {"valid": "a path", "parse": parse}
+    return {"valid": "a path without := and $(", "parse": plain_path}
 
 
 def choice_or_file(*values: str, endings: tuple[str, ...]) -> dict[str, Any]:
@@ -66,7 +69,7 @@ def choice_or_file(*values: str, endings: tuple[str, ...]) -> dict[str, Any]:
     def parse(text):
         if text in values:
             return text
-        file = os.path.abspath(os.path.expanduser(text))
+        file = plain_path(text)
         if not (file.endswith(endings) and os.path.isfile(file)):
             raise ValueError
         return file

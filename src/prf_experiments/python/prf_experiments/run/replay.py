@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 
 from prf_experiments import files
+from prf_experiments.faults import catalogue, wiring
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session
@@ -19,12 +20,12 @@ FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonst
 
 
 @contextlib.contextmanager
-def player(bag: str, log_file: str, rate: float) -> Iterator[subprocess.Popen]:
+def player(bag: str, log_file: str, rate: float, played: list[str]) -> Iterator[subprocess.Popen]:
     """`rosbag play` of the sensor topics, paused before the first message."""
     with open(log_file, "w", encoding="utf-8") as log:
         process = subprocess.Popen(
             [processes.executable("rosbag", "play"), "--pause", "--queue=0", f"--rate={rate}",
-             "--topics", *("/" + topic for topic in PLAYED), "--bags", bag, "__name:=player"],
+             "--topics", *("/" + topic for topic in played), "--bags", bag, "__name:=player"],
             stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
     try:
         yield process
@@ -34,18 +35,34 @@ def player(bag: str, log_file: str, rate: float) -> Iterator[subprocess.Popen]:
             process.wait()
 
 
+def repeatable(text: str) -> list[catalogue.Fault]:
+    """A trial's faults; SessionError when its topics do not determine what the nodes said."""
+    faults = catalogue.parse(text)
+    for fault in faults:
+        if not fault.topic:
+            raise session.SessionError(f"the fault {fault.word} is none of the messages: they do "
+                                       "not determine what the nodes said")
+        if fault.name == "second":
+            raise session.SessionError(f"the fault {fault.word} needs two publishers, a replay has one")
+    return faults
+
+
 def replay(bag: str, folder: str, rate: float) -> str:
     """Leaves folder/replay.bag with everything that the framework publishes."""
-    description = recording.description(bag)
-    chosen = description.get("arguments", {})
+    chosen = recording.description(bag).get("arguments", {})
+    faults = repeatable(chosen.get("fault") or "")
+    faulty = wiring.recorded(faults)
+    links = connections.trial_links("player", simulated=False)
     play = session.Session(
         folder=folder, bag="replay.bag",
         launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
-                          if chosen.get(name) is not None],
+                          if chosen.get(name) is not None]
+        + ["relayed:=" + "".join(f"/{topic}:" for topic in catalogue.relayed(faults))],
         topics=topics.OUTPUTS + topics.TRANSFORMS,
-        links=connections.trial_links("player", simulated=False), driver="player")
-    with play.running() as launch, player(bag, play.log("player.log"), rate) as playing, \
+        links=wiring.replayed(links, faults, "/player"), driver="player")
+    with play.running() as launch, \
+            player(bag, play.log("player.log"), rate, PLAYED + faulty) as playing, \
             contextlib.ExitStack() as stack:
         # Imported here: rospy reads the environment that running() has set.
         import std_srvs.srv
@@ -100,5 +117,8 @@ def main(words: list[str]) -> int:
     parser.add_argument("--rate", type=float, default=1.0, help="times real time")
     parser.add_argument("--json", metavar="FILE", help="writes the result there too")
     options = parser.parse_args(words)
-    options.bag = os.path.abspath(options.bag)
+    try:
+        options.bag = args.plain_path(options.bag)
+    except ValueError:
+        parser.error(f"{options.bag}: ROS cannot be given a path with := or $(")
     return session.guarded("replay", lambda: run(options))

@@ -9,7 +9,7 @@ import rospkg
 
 from prf_experiments import files
 from prf_experiments.faults import catalogue, wiring
-from prf_experiments.judge import judge
+from prf_experiments.judge import invariants, judge, reaction
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session, trial_arguments
@@ -17,7 +17,7 @@ from prf_experiments.teach import demonstration
 
 SIMULATOR = "platform_sim"
 START_SERVICE = "/platform_sim/start"
-EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
+EXIT_OK, EXIT_USAGE, EXIT_INVALID, EXIT_VIOLATION = 0, 2, 3, 4
 
 
 def versions() -> dict[str, str]:
@@ -58,10 +58,27 @@ def simulate(run: session.Session, description: dict) -> float:
         return wall
 
 
-def evaluate(folder: str, description: dict, wall: float | None, failure: str,
-             progress: session.ProgressLine) -> dict:
-    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
+def checked(data: recording.Recording | None, folder: str) -> dict:
+    """The invariants of every trial, and what the execution did about faults."""
+    left_over = processes.left_over(os.path.join(folder, "log"))
+    if data is None:
+        found = invariants.Findings([f"process left over: {command}" for command in left_over])
+        return {"invariants": found.as_json()}
+    return {"invariants": invariants.check(data, left_over=left_over).as_json(),
+            "reaction": reaction.times(data)}
+
+
+def _draw_report(folder, data, content):
     from prf_experiments.report import pictures, report  # matplotlib takes its time
+    bag = os.path.join(folder, "trial.bag")
+    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else report.NOTHING
+    report.write(os.path.join(folder, "report.html"), bag, data, content,
+                 demonstration.read(skill(content["arguments"])), scene)
+
+
+def evaluate(folder: str, description: dict, wall: float | None, failure: str,
+             progress: session.ProgressLine, draw: bool = True) -> dict:
+    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
     bag, data = os.path.join(folder, "trial.bag"), None
     verdict = judge.invalid(failure)
     if not failure:
@@ -72,13 +89,12 @@ def evaluate(folder: str, description: dict, wall: float | None, failure: str,
         except recording.RecordingError as error:
             verdict = judge.invalid(str(error))
     simulated = verdict.figures.get("duration_s")
-    content = {**verdict.as_json(), **description, "wall_time_s": wall,
+    content = {**verdict.as_json(), **checked(data, folder), **description, "wall_time_s": wall,
                "simulated_per_real_time": simulated / wall if simulated and wall else None}
-    progress.show("drawing the report", always=True)
-    scene = pictures.of(bag, data, content["figures"]) if content["figures"] else report.NOTHING
     try:  # the verdict comes last: where there is one, everything is there
-        report.write(os.path.join(folder, "report.html"), bag, data, content,
-                     demonstration.read(skill(description["arguments"])), scene)
+        if draw:
+            progress.show("drawing the report", always=True)
+            _draw_report(folder, data, content)
         files.write_json(os.path.join(folder, "verdict.json"), content)
     except OSError as error:
         lost = judge.invalid(f"the results cannot be written: {error}"
@@ -136,7 +152,7 @@ def run(values: dict, folder: str | None = None) -> int:
     finally:
         trial.progress.close()
 
-    content = evaluate(folder, description, wall, failure, trial.progress)
+    content = evaluate(folder, description, wall, failure, trial.progress, values["report"])
     if not values["keep_bag"]:
         with contextlib.suppress(FileNotFoundError):
             os.remove(os.path.join(folder, "trial.bag"))
@@ -145,8 +161,12 @@ def run(values: dict, folder: str | None = None) -> int:
     if content["simulated_per_real_time"]:
         print(f"simulated {content['figures']['duration_s']:.1f} s in {wall:.1f} s: "
               f"{content['simulated_per_real_time']:.2f} times real time")
+    violations = content["invariants"]["violations"]
+    for violation in violations:
+        print(f"run_trial: INVARIANT BROKEN: {violation}", file=sys.stderr)
     print(folder)
-    return EXIT_INVALID if content["verdict"] == "INVALID" else EXIT_OK
+    return (EXIT_INVALID if content["verdict"] == "INVALID"
+            else EXIT_VIOLATION if violations else EXIT_OK)
 
 
 def main(words: list[str]) -> int:

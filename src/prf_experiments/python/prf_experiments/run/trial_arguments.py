@@ -68,6 +68,7 @@ RESULTS = {"results": Argument(os.path.abspath("results"), **path(),
                                meaning="folder that gets the results")}
 TRIAL = {
     **LAUNCHED, **RESULTS,
+    "report": Argument(True, **boolean(), meaning="false: draw no report"),
     "keep_bag": Argument(True, **boolean(), meaning="false: delete the bag at the end"),
 }
 

@@ -14,7 +14,7 @@ from prf_experiments.run import arguments as args
 from prf_experiments.run import session, trial, trial_arguments
 from prf_experiments.sweep import sweep
 
-EXIT_OK, EXIT_INVALID = 0, 3
+EXIT_OK, EXIT_INVALID, EXIT_VIOLATION = 0, 3, 4
 FIRST_SEEDS = 3  # as many as the paper's trials of a cell
 
 
@@ -81,6 +81,11 @@ def read_bag(folder: str, result: dict) -> tuple[str, recording.Recording | None
         return bag, None
 
 
+def broken(result: dict) -> list[str]:
+    """The invariants that did not hold in a trial."""
+    return result.get("invariants", {}).get("violations", [])
+
+
 NO_BAG = "Its bag is not there; keep it with --keep-bags all."
 
 
@@ -105,7 +110,9 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
         *study.sections(summary, results, os.path.dirname(path)),
         Section("Trials", body=[page.table(
             [(verdict_link(result), trial_arguments.name(result["arguments"]), result["inspected"],
-              result["reason"]) for result in results],
+              "; ".join([result["reason"], *("INVARIANT BROKEN: " + text
+                                             for text in broken(result))]))
+             for result in results],
             ("verdict", "trial", "inspected", "reason"))]),
         Section("Arguments that all trials share, and versions", body=[page.table(
             [*((name, args.show(value)) for name, value in shared.items()), *versions.items(),
@@ -144,7 +151,9 @@ def run(study: Study, options: argparse.Namespace, command: str, named: Sequence
     index = os.path.join(folder, "index.html")
     write_page(index, study, command, versions, results, summary)
     print(study.text(summary) + "\n" + index)
-    return EXIT_INVALID if any(result["verdict"] == "INVALID" for result in results) else EXIT_OK
+    if any(result["verdict"] == "INVALID" for result in results):
+        return EXIT_INVALID
+    return EXIT_VIOLATION if any(broken(result) for result in results) else EXIT_OK
 
 
 def main(study: Study, options: argparse.Namespace, command: str, named: Sequence[str]) -> int:

@@ -117,6 +117,9 @@ class Board:
     def tell(self, values: dict, content: dict) -> None:
         self._done += 1
         self._counts[content["verdict"]] = self._counts.get(content["verdict"], 0) + 1
+        broken = len(content.get("invariants", {}).get("violations", []))
+        if broken:
+            self._write(f"{trial_arguments.name(values)}: {broken} INVARIANTS BROKEN")
         again = "".join(f", after {reason}" for reason in content["failed_attempts"])
         self._write(f"{self._kept + self._done}/{self._total} {content['verdict']:<7} "
                     f"{trial_arguments.name(values)}: {content['reason']} "

@@ -14,7 +14,7 @@ from prf_experiments.record import recording
 
 
 def told(data):
-    return [(round(time, 2), what) for time, _, _, what in
+    return [(round(time, 2), what) for time, _, _, _, what in
             timeline.event_lines(data, judge.judge(data).figures)]
 
 
@@ -31,10 +31,11 @@ class Timeline(unittest.TestCase):
 
     def test_distances_are_those_of_the_moment(self):
         data = synthetic.make_recording(3.0, lateral=np.linspace(0.09, 0.03, 301), along=0.35)
-        _, lateral, to_stand_off, what = timeline.event_lines(data, {})[-1]
+        _, lateral, to_stand_off, following, what = timeline.event_lines(data, {})[-1]
         self.assertEqual(what, "DONE")
         self.assertAlmostEqual(lateral, 30.0, 6)
         self.assertAlmostEqual(to_stand_off, 50.0, 6)
+        self.assertEqual(following, 0.0)
 
     def test_contacts_near_in_time_are_one_event_for_each_pair_of_links(self):
         data = synthetic.make_recording(4.0)

@@ -69,7 +69,7 @@ class Report(unittest.TestCase):
         data.contacts = [recording.Contact(int(data.ticks[150]), ("box_back", "camera_link"), 2.5)]
         text = self.write(data)
         self.assert_sound(text)
-        self.assertEqual(len(re.findall("<svg", text)), 4)
+        self.assertEqual(len(re.findall("<svg", text)), 5)
         self.assertIn("run &lt;this&gt; &amp; that", text)
         self.assertIn("partial success", text)
         self.assertIn("box_back | camera_link", text)
