@@ -19,7 +19,7 @@ namespace topics = prf_msgs::topics;
 class SkillPlannerNode {
  public:
   explicit SkillPlannerNode(const SkillPlannerParams& params)
-      : params_(params), skill_(params.session, params.demonstration, params.frame) {
+      : params_(params), skill_(params.session, params.files) {
     warn_of_lost_shape();
     const auto hints = ros::TransportHints().tcpNoDelay();
     forecast_ =
@@ -40,10 +40,10 @@ class SkillPlannerNode {
   }
 
   bool in_planning_frame(const std_msgs::Header& header, const char* topic) {
-    if (header.frame_id == params_.frame) return true;
+    if (header.frame_id == params_.files.frame) return true;
     ++wrong_frame_;
     ROS_WARN_THROTTLE(5.0, "%s is in frame '%s', must be '%s': dropped", topic,
-                      header.frame_id.c_str(), params_.frame.c_str());
+                      header.frame_id.c_str(), params_.files.frame.c_str());
     return false;
   }
 
@@ -66,7 +66,7 @@ class SkillPlannerNode {
     while (const auto request = queue_.next()) {
       if (request->new_run) {
         ROS_INFO("stamps went back: new run");
-        skill_.session().reset();
+        skill_.reset();
       }
       trajectory_.publish(plan(*request));
       ++requests_;

@@ -8,16 +8,19 @@ namespace elte_planner {
 
 void SkillPlannerParams::validate() const {
   session.validate();
-  prf_core::require(!demonstration.empty(), "demonstration", "''", "the name of a CSV file");
-  prf_core::require(!frame.empty(), "frame", "''", "the name of a frame");
+  prf_core::require(!files.demonstration.empty(), "demonstration", "''", "the name of a CSV file");
+  prf_core::require(!files.frame.empty(), "frame", "''", "the name of a frame");
+  files.limits.validate();
   prf_core::require_between("late_after", late_after, 1e-6, 10.0, "s");
 }
 
 SkillPlannerParams load_params(const ros::NodeHandle& private_node) {
   prf_ros::PrivateParameters values(private_node);
   SkillPlannerParams params;
-  params.demonstration = values.text("demonstration");
-  params.frame = values.text("frame");
+  params.files.demonstration = values.text("demonstration");
+  params.files.folders = values.text("demonstration_folders");
+  params.files.limits.reach = values.number("reach");
+  params.files.frame = values.text("frame");
   params.late_after = values.number("late_after");
   SessionParams& session = params.session;
   session.planner = values.text("planner");

@@ -4,16 +4,13 @@
 
 #include <ros/node_handle.h>
 
-#include <string>
-
-#include "elte_planner/skill_session.hpp"
+#include "elte_planner/current_skill.hpp"
 
 namespace elte_planner {
 
 struct SkillPlannerParams {
-  std::string demonstration;  // CSV file
-  std::string frame;          // planning frame that demonstration and messages must be in
-  double late_after = 0.0;    // s, a solve that takes longer is late; within [1e-6, 10]
+  SkillFiles files;
+  double late_after = 0.0;  // s, a solve that takes longer is late; within [1e-6, 10]
   SessionParams session;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound

@@ -92,7 +92,7 @@ TEST(StepBound, IsKeptAndOpensTheRadiusOnlyByWhatIsMissing) {
     const PlanRequest request{zeta, frozen,
                               zeta.row(29).transpose() + random_vector(3, 0.5, random), 0.01};
     const PlanResult plan =
-        make_skill_planner(i % 2 == 0 ? "elte" : "lte", zeta, {}, max_step)->plan(request);
+        make_skill_planner(i % 2 == 0 ? "elte" : "lte", zeta, {}, {max_step})->plan(request);
     ASSERT_NE(plan.status, PlanStatus::kFailed) << i << ": " << plan.message;
     ASSERT_EQ(plan.positions.topRows(frozen), zeta.topRows(frozen));
     for (Eigen::Index k = frozen; k < 30; ++k) {
@@ -113,9 +113,9 @@ TEST(StepBound, IsRefusedByPlannersThatKeepNone) {
   std::mt19937 random(4);
   const Eigen::MatrixXd zeta = random_demonstration(30, 3, random);
   for (const char* name : {"dmp", "elastic_map"}) {
-    EXPECT_THROW((void)make_skill_planner(name, zeta, {}, 0.1), std::invalid_argument);
+    EXPECT_THROW((void)make_skill_planner(name, zeta, {}, {0.1}), std::invalid_argument);
   }
-  EXPECT_THROW((void)make_skill_planner("elte", zeta, {}, 0.0), std::invalid_argument);
+  EXPECT_THROW((void)make_skill_planner("elte", zeta, {}, {0.0}), std::invalid_argument);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planners, SkillPlannerTest, testing::ValuesIn(planner_names()));

@@ -33,8 +33,10 @@ struct TimedPose {
 class Demonstration {
  public:
   static constexpr std::size_t kMinSamples = 3;  // a second difference needs as many
+  static constexpr std::size_t kMaxSamples = 1000000;
   static constexpr double kMinLength = 1e-6;     // m of path
   static constexpr double kMaxCoordinate = 1e6;  // m
+  static constexpr double kMaxTime = 1e6;        // s, eleven days
 
   using Notes = std::map<std::string, std::string>;
 
@@ -81,6 +83,9 @@ class Demonstration {
   Pose target_;
   Notes notes_;
 };
+
+// Files longer than this are refused unread.
+constexpr std::size_t kMaxDemonstrationBytes = 200'000'000;
 
 // Throw std::invalid_argument with file, line, column, value and bound.
 [[nodiscard]] Demonstration load_demonstration(const std::string& path);

@@ -21,7 +21,7 @@ namespace elte_planner {
 class ElteSkillPlanner : public SkillPlanner {
  public:
   ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
-                   std::string name, double max_step);
+                   std::string name, const SolveLimits& limits);
 
   std::string name() const override { return name_; }
 
@@ -35,7 +35,7 @@ class ElteSkillPlanner : public SkillPlanner {
   Eigen::MatrixXd demonstration_;
   ElteWeights weights_;
   std::string name_;
-  double max_step_;
+  SolveLimits limits_;
   EndpointSolver solver_;
 };
 

@@ -66,11 +66,19 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
 // The names that make_skill_planner() knows.
 [[nodiscard]] std::vector<std::string> planner_names();
 
-// max_step: greatest l1 distance of consecutive nodes that are not frozen, m, above 0; only elte
-// and lte can keep one. Throws std::invalid_argument, listing the known names when `name` is none
-// of them.
-[[nodiscard]] std::unique_ptr<SkillPlanner> make_skill_planner(
-    const std::string& name, const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
-    double max_step = std::numeric_limits<double>::infinity());
+// Only elte and lte know them.
+struct SolveLimits {
+  // m, greatest l1 distance of consecutive nodes that are not frozen, above 0; others refuse one
+  double max_step = std::numeric_limits<double>::infinity();
+  // Bounds the work of one plan, and unlike a clock gives the same answer on every machine; beyond
+  // it the plan has failed.
+  int max_iterations = 2000;
+};
+
+// Throws std::invalid_argument, listing the known names when `name` is none of them.
+[[nodiscard]] std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
+                                                               const Eigen::MatrixXd& demonstration,
+                                                               const ElteWeights& weights,
+                                                               const SolveLimits& limits = {});
 
 }  // namespace elte_planner

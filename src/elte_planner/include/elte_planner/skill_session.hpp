@@ -43,6 +43,14 @@ struct Progress {
   Eigen::Index frozen = 0;            // leading nodes that must not move
   prf_core::Duration time_to_go{0};   // from the cursor to the last node
   DemonstrationRequest demonstration = {};
+
+  static constexpr prf_core::Duration kMaxTimeToGo = std::chrono::hours(1);
+  // How far the clock of the camera may be ahead of that of the arm.
+  static constexpr prf_core::Duration kMaxForecastLead = std::chrono::milliseconds(100);
+
+  // Throws std::invalid_argument with name, value and bound for what no execution of a plan with
+  // this number of nodes can ask. Stamps lie within the bounds of ROS time.
+  void validate(Eigen::Index nodes) const;
 };
 
 enum class Adaptation {
@@ -56,11 +64,14 @@ struct SessionParams {
   int nodes = 0;  // of the plan, 3 .. 10000
   ElteWeights weights;
   double max_step = 0.0;         // m, greatest l1 distance of consecutive nodes; 0: no bound
+                                 // else within [0.0001, 1]
   double horizon_max = 0.0;      // s, farthest look ahead, within [0, 60]
-  double confidence = 0.0;       // probability of the end point's l1 ball, within (0, 1)
-  double radius_min = 0.0;       // m
-  double radius_max = 0.0;       // m, at least radius_min
+  double confidence = 0.0;       // probability of the end point's l1 ball, within [0.001, 0.999]
+  double radius_min = 0.0;       // m, within [0, 1]
+  double radius_max = 0.0;       // m, within [radius_min, 1]
   double approach_length = 0.0;  // m, of the skill's end where every node has a goal; 0: the last
+  // Deadline of a solve, the same on every machine; then the last plan is kept.
+  int max_iterations = SolveLimits{}.max_iterations;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
 };
@@ -82,6 +93,8 @@ class SkillSession {
   // Throws std::invalid_argument for parameters that validate() or make_skill_planner() refuses.
   SkillSession(const SessionParams& params, const Demonstration& demonstration);
 
+  // Without a plan of its own (a node that was started anew) it cannot keep the frozen nodes and
+  // adapts them all, which is nearest to what was executed.
   // forecast: the one that the progress names; null when it was lost on its way. When it is null
   // or invalid, has no target or a lost one, or the planner fails, the result is the last plan as
   // kKept, or no poses as kNoPlan before the first plan. A coasting target is used, but not for

@@ -27,7 +27,7 @@ std::string text(const Value& value) {
 Pose normalised(const Pose& pose, const std::string& where) {
   if (!pose.is_finite()) refuse_demonstration(where + " has a coordinate that is not finite");
   const double farthest = pose.position.cwiseAbs().maxCoeff();
-  if (farthest > Demonstration::kMaxCoordinate) {
+  if (!(farthest <= Demonstration::kMaxCoordinate)) {
     refuse_demonstration(where + " has a coordinate of " + text(farthest) + " m, must be at most " +
                          text(Demonstration::kMaxCoordinate) + " m");
   }
@@ -99,14 +99,18 @@ Demonstration::Demonstration(std::vector<TimedPose> samples, std::string frame,
   if (frame_.empty()) refuse_demonstration("frame is empty, must name the frame of the poses");
   if (child_frame_.empty())
     refuse_demonstration("child_frame is empty, must name the guided frame");
-  if (samples_.size() < kMinSamples) {
+  if (samples_.size() < kMinSamples || samples_.size() > kMaxSamples) {
     refuse_demonstration("has " + text(samples_.size()) + " samples, must have at least " +
-                         text(kMinSamples));
+                         text(kMinSamples) + " and at most " + text(kMaxSamples));
   }
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const std::string where = "sample " + text(i);
     if (!std::isfinite(samples_[i].time))
       refuse_demonstration(where + " has a time that is not finite");
+    if (samples_[i].time > kMaxTime) {
+      refuse_demonstration(where + " has time " + text(samples_[i].time) + " s, must be at most " +
+                           text(kMaxTime) + " s");
+    }
     if (i == 0 && samples_[i].time != 0.0) {
       refuse_demonstration(where + " has time " + text(samples_[i].time) + " s, must be 0");
     }

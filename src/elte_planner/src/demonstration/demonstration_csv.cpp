@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "elte_planner/demonstration.hpp"
+#include "shown.hpp"
 
 namespace elte_planner {
 namespace {
@@ -71,7 +72,7 @@ class Reader {
     } else if (line == kHeader) {
       has_header_ = true;
     } else {
-      refuse("header is '" + shown(line) + "', must be '" + std::string(kHeader) + "'");
+      refuse("header is '" + shown(line, 60) + "', must be '" + std::string(kHeader) + "'");
     }
   }
 
@@ -80,7 +81,7 @@ class Reader {
     if (colon == std::string_view::npos) return;
     const std::string key(trimmed(line.substr(0, colon)));
     const std::string_view value = trimmed(line.substr(colon + 1));
-    if (!notes_.emplace(key, value).second) refuse("key '" + shown(key) + "' is given twice");
+    if (!notes_.emplace(key, value).second) refuse("key '" + shown(key, 60) + "' is given twice");
     if (key == "target_pose") target_ = target_pose(value);
   }
 
@@ -135,18 +136,10 @@ class Reader {
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      refuse("column '" + std::string(column) + "' is '" + shown(field) +
+      refuse("column '" + std::string(column) + "' is '" + shown(field, 60) +
              "', must be a finite number");
     }
     return value;
-  }
-
-  static std::string shown(std::string_view text) {
-    std::string result(text.substr(0, 60));
-    for (char& c : result) {
-      if (c < ' ' || c > '~') c = '?';
-    }
-    return result;
   }
 
   [[noreturn]] void refuse(const std::string& what) const {

@@ -9,22 +9,16 @@
 #include "elte_planner/edit_problem.hpp"
 
 namespace elte_planner {
-namespace {
-
-// Bounds the work of one plan, and unlike a clock gives the same answer on every machine.
-constexpr int kMaxIterations = 2000;
-
-}  // namespace
 
 ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
-                                   std::string name, double max_step)
+                                   std::string name, const SolveLimits& limits)
     : demonstration_(demonstration),
       weights_(weights),
       name_(std::move(name)),
-      max_step_(max_step),
+      limits_(limits),
       solver_(demonstration, weights) {
-  if (!(max_step > 0.0)) {
-    throw std::invalid_argument("max_step is " + std::to_string(max_step) +
+  if (!(limits.max_step > 0.0)) {
+    throw std::invalid_argument("max_step is " + std::to_string(limits.max_step) +
                                 " m, must be above 0 m");
   }
 }
@@ -47,7 +41,7 @@ PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
 bool ElteSkillPlanner::keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const {
   const Eigen::Index free = demonstration_.rows() - frozen;
   const auto steps = plan.positions.bottomRows(free) - plan.positions.middleRows(frozen - 1, free);
-  return steps.rowwise().lpNorm<1>().maxCoeff() <= max_step_;
+  return steps.rowwise().lpNorm<1>().maxCoeff() <= limits_.max_step;
 }
 
 bool ElteSkillPlanner::keeps_approach(const PlanResult& plan, const PlanRequest& request) {
@@ -62,10 +56,11 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) c
   problem.zeta = demonstration_;
   problem.weights = weights_;
   problem.fixed = request.previous.topRows(request.frozen);
-  problem.max_step = max_step_;
+  problem.max_step = limits_.max_step;
   // Just within reach: exactly at its edge every step is at its bound and nothing is left to
   // choose.
-  const double reach = (1.0 - 1e-6) * max_step_ * static_cast<double>(last + 1 - request.frozen);
+  const double reach =
+      (1.0 - 1e-6) * limits_.max_step * static_cast<double>(last + 1 - request.frozen);
   const double distance =
       (request.goal.transpose() - request.previous.row(request.frozen - 1)).lpNorm<1>();
   const double radius = std::max(request.radius, distance - reach);
@@ -74,7 +69,7 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) c
     problem.constraints.push_back(PointConstraint::ball(ball.node, ball.centre, ball.radius));
   }
   EditParams params;
-  params.max_iterations = kMaxIterations;
+  params.max_iterations = limits_.max_iterations;
   EditSolution solution;
   EditSolver().solve(problem, params, solution);
 

@@ -14,10 +14,11 @@ namespace elte_planner {
 namespace {
 
 using Maker = std::unique_ptr<SkillPlanner> (*)(const Eigen::MatrixXd& demonstration,
-                                                const ElteWeights& weights, double max_step);
+                                                const ElteWeights& weights,
+                                                const SolveLimits& limits);
 
-void require_no_step_bound(const char* planner, double max_step) {
-  prf_core::require(std::isinf(max_step), "max_step", max_step,
+void require_no_step_bound(const char* planner, const SolveLimits& limits) {
+  prf_core::require(std::isinf(limits.max_step), "max_step", limits.max_step,
                     std::string("without bound: planner ") + planner + " keeps none");
 }
 
@@ -29,25 +30,25 @@ struct Factory {
 constexpr Factory kFactories[] = {
     {"elte",
      [](const Eigen::MatrixXd& zeta, const ElteWeights& weights,
-        double max_step) -> std::unique_ptr<SkillPlanner> {
-       return std::make_unique<ElteSkillPlanner>(zeta, weights, "elte", max_step);
+        const SolveLimits& limits) -> std::unique_ptr<SkillPlanner> {
+       return std::make_unique<ElteSkillPlanner>(zeta, weights, "elte", limits);
      }},
     {"lte",
      [](const Eigen::MatrixXd& zeta, const ElteWeights&,
-        double max_step) -> std::unique_ptr<SkillPlanner> {
+        const SolveLimits& limits) -> std::unique_ptr<SkillPlanner> {
        const ElteWeights shape_only{0.0, 0.0, Laplacian::kRowNormalised};
-       return std::make_unique<ElteSkillPlanner>(zeta, shape_only, "lte", max_step);
+       return std::make_unique<ElteSkillPlanner>(zeta, shape_only, "lte", limits);
      }},
     {"elastic_map",
      [](const Eigen::MatrixXd& zeta, const ElteWeights& weights,
-        double max_step) -> std::unique_ptr<SkillPlanner> {
-       require_no_step_bound("elastic_map", max_step);
+        const SolveLimits& limits) -> std::unique_ptr<SkillPlanner> {
+       require_no_step_bound("elastic_map", limits);
        return std::make_unique<ElasticMapSkillPlanner>(zeta, weights);
      }},
     {"dmp",
      [](const Eigen::MatrixXd& zeta, const ElteWeights&,
-        double max_step) -> std::unique_ptr<SkillPlanner> {
-       require_no_step_bound("dmp", max_step);
+        const SolveLimits& limits) -> std::unique_ptr<SkillPlanner> {
+       require_no_step_bound("dmp", limits);
        return std::make_unique<DmpSkillPlanner>(zeta);
      }},
 };
@@ -105,10 +106,11 @@ std::vector<std::string> planner_names() {
 
 std::unique_ptr<SkillPlanner> make_skill_planner(const std::string& name,
                                                  const Eigen::MatrixXd& demonstration,
-                                                 const ElteWeights& weights, double max_step) {
+                                                 const ElteWeights& weights,
+                                                 const SolveLimits& limits) {
   std::string known;
   for (const Factory& factory : kFactories) {
-    if (name == factory.name) return factory.make(demonstration, weights, max_step);
+    if (name == factory.name) return factory.make(demonstration, weights, limits);
     known += (known.empty() ? "" : ", ") + std::string(factory.name);
   }
   prf_core::require(false, "planner", name, "one of: " + known);

@@ -49,13 +49,15 @@ void SessionParams::validate() const {
   using prf_core::require_between;
   require_between("nodes", nodes, 3, 10000);
   weights.validate();
-  require_between("max_step", max_step, 0.0, 1.0, "m");
+  // A step of a tenth of a millimetre is less than the hand can be measured.
+  prf_core::require(max_step == 0.0 || (max_step >= 1e-4 && max_step <= 1.0), "max_step", max_step,
+                    "0 or within [0.0001, 1] m");
   require_between("horizon_max", horizon_max, 0.0, 60.0, "s");
-  prf_core::require(confidence > 0.0 && confidence < 1.0, "confidence", confidence,
-                    "within (0, 1)");
+  require_between("confidence", confidence, 0.001, 0.999);
   require_between("radius_min", radius_min, 0.0, 1.0, "m");
   require_between("radius_max", radius_max, radius_min, 1.0, "m");
   require_between("approach_length", approach_length, 0.0, 10.0, "m");
+  require_between("max_iterations", max_iterations, 1, 1000000);
 }
 
 SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
@@ -65,8 +67,21 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
       goal_in_target_(demonstration_.goal_in_target()),
       approach_(approach(demonstration_, params.approach_length)),
       demonstrated_orientations_(orientations(demonstration_.samples())),
-      planner_(make_skill_planner(params.planner, demonstration_.positions(), params.weights,
-                                  params.max_step > 0.0 ? params.max_step : kInfinity)) {}
+      planner_(make_skill_planner(
+          params.planner, demonstration_.positions(), params.weights,
+          {params.max_step > 0.0 ? params.max_step : kInfinity, params.max_iterations})) {}
+
+void Progress::validate(Eigen::Index nodes) const {
+  using prf_core::require;
+  using prf_core::require_between;
+  using prf_core::to_seconds;
+  require(frozen >= 0 && frozen <= nodes, "frozen", frozen,
+          "within [0, " + std::to_string(nodes) + "]");
+  require_between("time_to_go", to_seconds(time_to_go), 0.0, to_seconds(kMaxTimeToGo), "s");
+  require(forecast_stamp <= stamp + kMaxForecastLead, "forecast_stamp minus stamp",
+          to_seconds(forecast_stamp - stamp),
+          "at most " + std::to_string(to_seconds(kMaxForecastLead)) + " s");
+}
 
 void SkillSession::reset() { plan_.reset(); }
 
@@ -83,7 +98,8 @@ std::string SkillSession::shape_warning() const {
 
 SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* forecast) {
   const Eigen::Index frozen =
-      std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes));
+      plan_ ? std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes))
+            : 2;
   const bool once = params_.adaptation == Adaptation::kOnce;
   if (once && plan_) {
     SkillResult repeated = *plan_;

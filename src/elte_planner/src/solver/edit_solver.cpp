@@ -60,7 +60,10 @@ void EditSolver::Workspace::solve_from_here(EditSolution& solution) {
                                                          : EditStatus::kIterationLimit;
   if (result != SolveResult::kDone) {
     solution.y.resize(0, 0);
-    if (solution.message.empty()) solution.message = "the active set did not settle";
+    if (solution.message.empty()) {
+      solution.message = "not solved within " + std::to_string(params_->max_iterations) +
+                         " changes of the active set";
+    }
     return;
   }
   report(solution);

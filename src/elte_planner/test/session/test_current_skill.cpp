@@ -32,7 +32,13 @@ struct CurrentSkillTest : testing::Test {
     }
   }
 
-  CurrentSkill first_skill() const { return {params(), path("first.csv"), "arm"}; }
+  CurrentSkill first_skill() const { return {params(), files("first.csv")}; }
+
+  SkillFiles files(const std::string& name, const std::string& folders = "") const {
+    SkillFiles result{path(name), "arm", {}, folders};
+    result.limits.reach = 1.3;
+    return result;
+  }
 
   std::string path(const std::string& name) const { return (folder / name).string(); }
 
@@ -109,9 +115,53 @@ TEST_F(CurrentSkillTest, IsReadWhenTheNumberChangesAndOnlyThen) {
   EXPECT_EQ(skill.select({"third.csv", 4}), std::nullopt);
 }
 
+// Fault A7: one progress names another demonstration or a huge switch number -> costs one plan, the
+// one before returns with its own
+TEST_F(CurrentSkillTest, ComesBackWithItsPlanAfterARequestByMistake) {
+  CurrentSkill skill = first_skill();
+  for (const DemonstrationRequest& mistake :
+       {DemonstrationRequest{"", 4294967295u}, DemonstrationRequest{"second.csv", 0}}) {
+    const SkillSession* const before = &skill.session();
+    EXPECT_EQ(skill.select(mistake), std::nullopt);
+    EXPECT_NE(&skill.session(), before);
+    EXPECT_EQ(skill.select({"", 0}), std::nullopt);
+    EXPECT_EQ(&skill.session(), before);
+  }
+}
+
+// Fault A11: a demonstration outside the configured folders -> refused with their names, the plan
+// stays
+TEST_F(CurrentSkillTest, OpensRequestedFilesOnlyInsideTheFolders) {
+  std::filesystem::create_directories(folder / "inside");
+  write("inside/first.csv", 0.1);
+  CurrentSkill closed(params(), files("inside/first.csv"));
+  const SkillSession* const before = &closed.session();
+  const auto refusal = closed.select({"../second.csv", 1});
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->find("outside demonstration_folders: "), std::string::npos) << *refusal;
+  EXPECT_TRUE(closed.select({std::string(5000, 'a'), 2}));
+  EXPECT_EQ(&closed.session(), before);
+  CurrentSkill open(params(), files("inside/first.csv", folder.string()));
+  EXPECT_EQ(open.select({"../second.csv", 1}), std::nullopt);
+  EXPECT_NEAR(height(open), 0.2, 1e-12);
+}
+
+// Fault 48: demonstration out of reach, requested or first -> refused with file and row, nothing
+// moves
+TEST_F(CurrentSkillTest, RefusesWhatTheArmCannotReach) {
+  write("high.csv", 1.35);
+  EXPECT_THROW(CurrentSkill(params(), files("high.csv")), std::invalid_argument);
+  CurrentSkill skill = first_skill();
+  const auto refusal = skill.select({"high.csv", 1});
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->find("high.csv: demonstration: row 11 is 1.44 m"), std::string::npos) << *refusal;
+}
+
 TEST_F(CurrentSkillTest, RefusesABadFirstOne) {
-  EXPECT_THROW(CurrentSkill(params(), path("missing.csv"), "arm"), std::invalid_argument);
-  EXPECT_THROW(CurrentSkill(params(), path("first.csv"), "world"), std::invalid_argument);
+  EXPECT_THROW(CurrentSkill(params(), files("missing.csv")), std::invalid_argument);
+  SkillFiles elsewhere = files("first.csv");
+  elsewhere.frame = "world";
+  EXPECT_THROW(CurrentSkill(params(), elsewhere), std::invalid_argument);
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ SessionParams params() {
   return result;
 }
 
+// Fault 28, A9: garbage or absurd parameters of the planner -> refused by name, bounded on both
+// sides
 TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
   EXPECT_NO_THROW(SkillSession(params(), line()));
   const auto refused = [](const std::string& name, auto&& change) {
@@ -51,7 +53,15 @@ TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
     p.max_step = 0.1;
   });
   refused("horizon_max", [](SessionParams& p) { p.horizon_max = std::nan(""); });
+  refused("max_step", [](SessionParams& p) { p.max_step = 5e-324; });
+  refused("nodes", [](SessionParams& p) { p.nodes = 2000000000; });
+  refused("w_elastic", [](SessionParams& p) { p.weights.elastic = 1e308; });
+  refused("horizon_max", [](SessionParams& p) { p.horizon_max = 1e308; });
   refused("confidence", [](SessionParams& p) { p.confidence = 1.0; });
+  refused("confidence", [](SessionParams& p) { p.confidence = 5e-324; });
+  refused("radius_max", [](SessionParams& p) { p.radius_max = 1e308; });
+  refused("approach_length", [](SessionParams& p) { p.approach_length = 1e308; });
+  refused("max_iterations", [](SessionParams& p) { p.max_iterations = 0; });
   refused("radius_min", [](SessionParams& p) { p.radius_min = -0.1; });
   refused("approach_length", [](SessionParams& p) { p.approach_length = -0.1; });
   refused("radius_max", [](SessionParams& p) { p.radius_max = 0.0005; });
