@@ -6,6 +6,7 @@
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
 
+#include <prf_core/require.hpp>
 #include <prf_ros/conversions.hpp>
 #include <stdexcept>
 #include <string>
@@ -15,7 +16,13 @@
 
 namespace elte_planner {
 
-// The forecast and, when it is refused, the reason; then the target counts as lost.
+inline void require_frame(const std::string& frame_id, const std::string& planning_frame) {
+  prf_core::require(frame_id == planning_frame, "frame_id", frame_id.substr(0, 200),
+                    "'" + planning_frame + "'");
+}
+
+// The forecast and, when it is refused, the reason; then the target counts as lost. Throws
+// std::invalid_argument when not even the stamp can be used.
 inline std::pair<prf_core::TargetForecast, std::string> forecast_from(
     const prf_msgs::TargetForecast& message) {
   try {

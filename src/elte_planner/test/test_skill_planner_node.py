@@ -123,10 +123,39 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(
             self.plans_after(forecast(8.0, frame="world"), progress(8.06, 8.0)), [])
 
+    # Fault A7, A4, 42, 43: one progress or forecast with absurd numbers -> dropped or taken as lost; the next is planned
+    def test_5_survives_absurd_messages(self):
+        before = self.plans_after(forecast(8.5), progress(8.56, 8.5, frozen=2))[-1]
+        end, most = rospy.Time(2**32 - 1, 999999999), 2**32 - 1
+        for spoil in (lambda p: setattr(p, "forecast_stamp", end), lambda p: setattr(p.header, "stamp", end),
+                      lambda p: setattr(p, "frozen", most), lambda p: setattr(p.header, "stamp", rospy.Time()),
+                      lambda p: setattr(p, "time_to_go", rospy.Duration(2**31 - 1)),
+                      lambda p: setattr(p, "demonstration_switch", most),
+                      lambda p: setattr(p, "demonstration", "/etc/passwd"),
+                      lambda p: setattr(p, "demonstration", "a" * 100000)):
+            bad = progress(8.57, 8.51)
+            spoil(bad)
+            self.progress.publish(bad)
+        for spoil in (lambda f: setattr(f.header, "stamp", end), lambda f: setattr(f.header, "stamp", rospy.Time()),
+                      lambda f: setattr(f.predictions[1].pose.position, "x", 1e300),
+                      lambda f: setattr(f.predictions[1].twist.linear, "x", float("nan"))):
+            bad = forecast(8.52)
+            spoil(bad)
+            self.forecasts.publish(bad)
+        after = self.plans_after(forecast(8.6), progress(8.66, 8.6, frozen=20))[-1]
+        self.assertEqual(after.status, SkillTrajectory.SOLVED, after.message)
+        self.assertEqual(after.poses[:20], before.poses[:20])
+
     def test_6_starts_anew_when_stamps_go_back(self):
         (plan,) = self.plans_after(
             forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
         self.assertEqual(plan.status, SkillTrajectory.NO_PLAN)
+
+    # Fault A11: a progress names a demonstration outside the configured folders -> REFUSED, it is not opened
+    def test_7_opens_no_file_elsewhere(self):
+        (plan,) = self.plans_after(forecast(10.0), progress(10.06, 10.0, 2, "/etc/passwd", 9))
+        self.assertEqual((plan.status, plan.poses), (SkillTrajectory.REFUSED, []))
+        self.assertIn("'/etc/passwd' is outside demonstration_folders: ", plan.message)
 
     def test_7_plans_with_the_demonstration_requested_or_says_why_not(self):
         first = rospy.get_param("~demonstration")
@@ -150,6 +179,7 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual((kept.status, kept.poses), (moved.status, moved.poses))
         self.assertEqual(back.poses, before.poses)
 
+    # Fault 50, A13: a solve is late -> its plan is sent all the same, counted and told in diagnostics
     def test_8_tells_late_solves_and_sends_their_plans(self):
         plans: list[SkillTrajectory] = []
         reports: dict[str, int] = {}
@@ -199,6 +229,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.assertEqual(len(fatal), 1, output)
         self.assertIn(expected, fatal[0])
 
+    # Fault 28, A9: garbage in the planner's parameters -> exit code 2 and one line naming the parameter
     def test_bad_values_are_refused_by_name(self):
         self.check("nodes = 2", nodes=2)
         self.check("nodes = 50.5", nodes=50.5)
@@ -209,6 +240,10 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("horizon_max = -1", horizon_max=-1)
         self.check("max_step = -1", max_step=-1)
         self.check("confidence = 1", confidence=1.0)
+        self.check("confidence = 4.94066e-324", confidence=5e-324)
+        self.check("max_step = 1e-300", max_step=1e-300)
+        self.check("reach = 1e+308", reach=1e308)
+        self.check("demonstration_folders: '/nonexistent' is no folder", demonstration_folders="/nonexistent")
         self.check("radius_min = -", radius_min=-0.01)
         self.check("radius_max = 5", radius_max=5.0)
         self.check("late_after = 0", late_after=0.0)

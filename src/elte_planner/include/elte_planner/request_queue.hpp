@@ -19,8 +19,10 @@ struct JoinedRequest {
 
 class RequestQueue {
  public:
-  void add(const Progress& progress);
-  void add(const prf_core::TargetForecast& forecast);
+  // Both return what the message's stamp is in its stream. A message that is kOld or kFarAhead was
+  // dropped; a progress that is kDuplicate asks only for a forecast not named before.
+  prf_core::StampOrder add(const Progress& progress);
+  prf_core::StampOrder add(const prf_core::TargetForecast& forecast);
 
   // The oldest request, once no later message can change whether its forecast comes; else nullopt.
   [[nodiscard]] std::optional<JoinedRequest> next();

@@ -3,18 +3,20 @@
 
 namespace elte_planner {
 
-void RequestQueue::add(const Progress& progress) {
-  using prf_core::StampOrder;
+using prf_core::StampOrder;
+
+StampOrder RequestQueue::add(const Progress& progress) {
   const StampOrder order = joiner_.advance(progress.stamp);
-  if (!prf_core::is_accepted(order) && order != StampOrder::kDuplicate) return;
+  if (!prf_core::is_accepted(order) && order != StampOrder::kDuplicate) return order;
   if (order == StampOrder::kBackwardJump) newest_named_ = prf_core::Stamp{0};
-  if (progress.forecast_stamp <= newest_named_) return;
+  if (progress.forecast_stamp <= newest_named_) return order;
   newest_named_ = progress.forecast_stamp;
   joiner_.push_primary(progress.stamp, progress.forecast_stamp, progress);
+  return order;
 }
 
-void RequestQueue::add(const prf_core::TargetForecast& forecast) {
-  joiner_.push_secondary(forecast.stamp, forecast);
+StampOrder RequestQueue::add(const prf_core::TargetForecast& forecast) {
+  return joiner_.push_secondary(forecast.stamp, forecast);
 }
 
 std::optional<JoinedRequest> RequestQueue::next() {

@@ -154,7 +154,8 @@ TEST_F(CurrentSkillTest, RefusesWhatTheArmCannotReach) {
   CurrentSkill skill = first_skill();
   const auto refusal = skill.select({"high.csv", 1});
   ASSERT_TRUE(refusal);
-  EXPECT_NE(refusal->find("high.csv: demonstration: row 11 is 1.44 m"), std::string::npos) << *refusal;
+  EXPECT_NE(refusal->find("high.csv: demonstration: row 11 is 1.44 m"), std::string::npos)
+      << *refusal;
 }
 
 TEST_F(CurrentSkillTest, RefusesABadFirstOne) {

@@ -117,6 +117,36 @@ TEST(RequestQueue, IgnoresForecastsNamedAgainLater) {
   EXPECT_FALSE(requests[1].new_run);
 }
 
+// Fault 40, A2: one progress or forecast late, early or doubled -> dropped and told; every plan
+// still comes
+TEST(RequestQueue, LosesNothingToOneMessageOutOfPlace) {
+  using prf_core::StampOrder;
+  constexpr std::int64_t kWrong[] = {0, 100, 9'995, 14'000, 4'294'967'295'000};
+  for (const std::int64_t wrong : kWrong) {
+    for (const bool wrong_forecast : {true, false}) {
+      RequestQueue queue;
+      std::size_t requests = 0;
+      for (std::int64_t i = 0; i < 30; ++i) {
+        const std::int64_t stamp = 10'000 + 33 * i;
+        if (i == 15) {
+          const StampOrder order =
+              wrong_forecast ? queue.add(forecast(wrong)) : queue.add(progress(wrong, wrong - 10));
+          EXPECT_EQ(order, wrong < 10'000 ? StampOrder::kOld : StampOrder::kFarAhead) << wrong;
+        }
+        EXPECT_EQ(queue.add(forecast(stamp)), StampOrder::kNewer);
+        EXPECT_EQ(queue.add(progress(stamp + 20, stamp)), StampOrder::kNewer);
+        EXPECT_EQ(queue.add(progress(stamp + 20, stamp)), StampOrder::kDuplicate);
+        for (const auto& request : drained(queue)) {
+          EXPECT_FALSE(request.new_run);
+          EXPECT_TRUE(request.forecast);
+          ++requests;
+        }
+      }
+      EXPECT_EQ(requests, 30u) << wrong << wrong_forecast;
+    }
+  }
+}
+
 TEST(RequestQueue, HoldsABoundedNumberOfForecasts) {
   RequestQueue queue;
   for (std::int64_t stamp = 1; stamp <= 5000; ++stamp) queue.add(forecast(stamp));
