@@ -217,7 +217,7 @@ void bind_planners(py::module_& m) {
          double w_bending, double max_step) {
         const PlanResult result =
             make_skill_planner(planner, zeta, weights_from(w_elastic, w_bending, "free_ends"),
-                               max_step)
+                               SolveLimits{max_step})
                 ->plan({previous, executed, goal, radius});
         return py::make_tuple(result.positions, name_of(result.status), result.slack);
       },
