@@ -1,71 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera_transforms.hpp"
 
-#include <tf2/exceptions.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <prf_ros/conversions.hpp>
 
 #include <utility>
 
 namespace prf_predictor {
+namespace {
 
-using prf_core::Stamp;
-using prf_core::StampOrder;
-using prf_ros::to_core;
+using Effect = FrameChain::Effect;
 
-CameraTransforms::CameraTransforms(std::string planning_frame, std::string ignored_prefix,
-                                   prf_core::Duration max_wait)
-    : planning_frame_(std::move(planning_frame)),
+// As tf2 does: frames had a leading slash once.
+std::string frame_name(const std::string& name) {
+  return name.rfind('/', 0) == 0 ? name.substr(1) : name;
+}
+
+const char* reason(Effect effect) {
+  switch (effect) {
+    case Effect::kOld:
+      return "tf with an old stamp";
+    case Effect::kDuplicate:
+      return "tf with a stamp that came before";
+    case Effect::kFarAhead:
+      return "tf with a stamp far in the future";
+    case Effect::kOtherParent:
+      return "tf with another parent";
+    case Effect::kBadPose:
+      return "tf that is no finite pose";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+CameraTransforms::CameraTransforms(const std::string& planning_frame, std::string ignored_prefix,
+                                   prf_core::Duration max_wait, Health& health)
+    : chain_(frame_name(planning_frame), max_wait),
       ignored_prefix_(std::move(ignored_prefix)),
-      max_wait_(max_wait) {}
+      health_(health) {}
 
-void CameraTransforms::add(const tf2_msgs::TFMessage& message, bool is_static) {
+void CameraTransforms::add(const tf2_msgs::TFMessage& message, const std::string& publisher,
+                           bool is_static) {
   for (const auto& transform : message.transforms) {
-    if (transform.child_frame_id.rfind(ignored_prefix_, 0) == 0) continue;
-    if (!is_static &&
-        clock_.observe(to_core(transform.header.stamp)) == StampOrder::kBackwardJump) {
-      buffer_.clear();
-    }
-    buffer_.setTransform(transform, "tf", is_static);
-    has_static_ = has_static_ || is_static;
+    const std::string child = frame_name(transform.child_frame_id);
+    if (child.rfind(ignored_prefix_, 0) == 0) continue;
+    const auto& [translation, rotation] =
+        std::tie(transform.transform.translation, transform.transform.rotation);
+    const FrameChain::Transform sample{frame_name(transform.header.frame_id),
+                                       child,
+                                       prf_ros::to_core(transform.header.stamp),
+                                       {prf_ros::to_core(translation), prf_ros::to_core(rotation)}};
+    report(sample, chain_.add(sample, is_static), publisher);
   }
 }
 
-void CameraTransforms::begin_run(Stamp stamp) {
-  if (!clock_.jumps_back(stamp)) return;
-  buffer_.clear();
-  clock_.restart();
+void CameraTransforms::report(const FrameChain::Transform& transform, Effect effect,
+                              const std::string& publisher) {
+  if (effect == Effect::kTooMany) health_.drop("tf of more than 1000 frames");
+  if (effect == Effect::kTooMany || effect == Effect::kBadFrames) return;
+  std::string& before = publishers_[transform.child];
+  const bool is_other = !before.empty() && before != publisher;
+  if ((is_other || reason(effect) != nullptr) &&
+      chain_.is_between(transform.child, camera_frame_)) {
+    const std::string what = "of " + transform.child + " from " + publisher;
+    if (is_other) health_.warn("a second publisher of tf", what + " and from " + before);
+    if (reason(effect) != nullptr) health_.drop(reason(effect), what);
+  }
+  before = publisher;
 }
 
-CameraTransforms::LookupResult CameraTransforms::lookup(const std::string& camera_frame,
-                                                        Stamp stamp) const {
-  LookupResult result;
-  if (stamp == Stamp{0}) {
-    result.readiness = Readiness::kNever;
-    result.reason = "stamp 0 means the latest time to tf";
-    return result;
-  }
-  const Stamp newest = clock_.newest().value_or(Stamp{0});
-  bool is_decided = newest > stamp + max_wait_;
-  try {
-    const ros::Time latest =
-        buffer_.lookupTransform(planning_frame_, camera_frame, ros::Time()).header.stamp;
-    const bool nothing_moves = latest.isZero();
-    is_decided = is_decided || nothing_moves || to_core(latest) > stamp;
-  } catch (const tf2::TransformException& error) {
-    result.reason = error.what();
-    const bool tree_is_known = has_static_ && newest > stamp;
-    is_decided = is_decided || tree_is_known;
-  }
-  if (!is_decided) return result;
-  try {
-    result.camera_in_planning = tf2::transformToEigen(
-        buffer_.lookupTransform(planning_frame_, camera_frame, prf_ros::to_ros_time(stamp)));
-    result.readiness = Readiness::kReady;
-  } catch (const tf2::TransformException& error) {
-    result.readiness = Readiness::kNever;
-    result.reason = error.what();
-  }
+FrameChain::LookupResult CameraTransforms::lookup(const std::string& camera_frame,
+                                                  prf_core::Stamp stamp) {
+  const std::string name = frame_name(camera_frame);
+  const auto result = chain_.lookup(name, stamp);
+  if (result.readiness == FrameChain::Readiness::kReady) camera_frame_ = name;
   return result;
 }
 

@@ -1,54 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose of the camera in the planning frame at the stamp of an image, as soon as it is final.
-//
-// A stamp is ready when every moving frame between camera and planning frame has a sample later
-// than the stamp. The same two neighbours are then interpolated whatever order the messages of
-// different topics came in. (tf2 copies a sample at exactly its stamp while it is the newest one
-// and interpolates afterwards, which differs in the last bit.)
+// tf messages to a FrameChain, and what is wrong with those that concern the camera.
 #pragma once
 
-#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <Eigen/Geometry>
-#include <prf_core/clock_monitor.hpp>
+#include <map>
 #include <string>
+
+#include "health.hpp"
+#include "prf_predictor/frame_chain.hpp"
 
 namespace prf_predictor {
 
 class CameraTransforms {
  public:
-  enum class Readiness {
-    kReady,
-    kWait,   // later tf may bring it
-    kNever,  // no later tf can bring it, or tf is more than `max_wait` past the stamp
-  };
-
-  struct LookupResult {
-    Readiness readiness = Readiness::kWait;
-    Eigen::Isometry3d camera_in_planning = Eigen::Isometry3d::Identity();
-    std::string reason;  // when not ready
-  };
-
   // Frames whose names begin with `ignored_prefix` are not stored: the detector sends them.
-  CameraTransforms(std::string planning_frame, std::string ignored_prefix,
-                   prf_core::Duration max_wait);
+  CameraTransforms(const std::string& planning_frame, std::string ignored_prefix,
+                   prf_core::Duration max_wait, Health& health);
 
-  // A backward jump of tf's stamps begins a new run: earlier tf is dropped.
-  void add(const tf2_msgs::TFMessage& message, bool is_static);
+  void add(const tf2_msgs::TFMessage& message, const std::string& publisher, bool is_static);
+  void begin_run(prf_core::Stamp stamp) { chain_.begin_run(stamp); }
 
-  // The images began a new run at this stamp: tf of the old run is dropped.
-  void begin_run(prf_core::Stamp stamp);
-
-  [[nodiscard]] LookupResult lookup(const std::string& camera_frame, prf_core::Stamp stamp) const;
+  // Remembers the camera: from then on drops of its frames are reported.
+  [[nodiscard]] FrameChain::LookupResult lookup(const std::string& camera_frame,
+                                                prf_core::Stamp stamp);
 
  private:
-  std::string planning_frame_;
+  void report(const FrameChain::Transform& transform, FrameChain::Effect effect,
+              const std::string& publisher);
+
+  FrameChain chain_;
   std::string ignored_prefix_;
-  prf_core::Duration max_wait_;
-  tf2::BufferCore buffer_;
-  prf_core::ClockMonitor clock_;  // of the moving frames
-  bool has_static_ = false;
+  Health& health_;
+  std::string camera_frame_;
+  std::map<std::string, std::string> publishers_;  // of each frame, the latest
 };
 
 }  // namespace prf_predictor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conversions.hpp"
 
+#include <algorithm>
 #include <prf_ros/conversions.hpp>
 
 namespace prf_predictor {
@@ -8,6 +9,8 @@ namespace {
 
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+constexpr double kLongestAge = 1e8;  // s, that a message can hold
 
 prf_msgs::TargetPrediction to_message(const prf_core::TargetPrediction& prediction) {
   prf_msgs::TargetPrediction message;
@@ -24,8 +27,15 @@ prf_msgs::TargetPrediction to_message(const prf_core::TargetPrediction& predicti
 CheckedMeasurement to_measurement(const prf_msgs::TagDetection& detection,
                                   const MeasurementDefaults& defaults) {
   const auto& pose = detection.pose.pose;
-  return check(prf_ros::to_core(pose.position), prf_ros::to_core(pose.orientation),
-               Eigen::Map<const RowMajor6d>(detection.pose.covariance.data()), defaults);
+  CheckedMeasurement checked =
+      check(prf_ros::to_core(pose.position), prf_ros::to_core(pose.orientation),
+            Eigen::Map<const RowMajor6d>(detection.pose.covariance.data()), defaults);
+  if (checked.measurement) {
+    checked.measurement = with_alternative(*checked.measurement,
+                                           prf_ros::to_core(detection.alternative_pose.orientation),
+                                           detection.ambiguity);
+  }
+  return checked;
 }
 
 prf_msgs::TargetForecast to_message(const TrackState& state,
@@ -38,7 +48,8 @@ prf_msgs::TargetForecast to_message(const TrackState& state,
   message.measured = state.measured;
   message.nis = state.nis;
   if (state.belief) {
-    message.since_measurement = prf_ros::to_ros_duration(state.stamp - state.last_accepted);
+    message.since_measurement = prf_ros::to_ros_duration(
+        prf_core::from_seconds(std::min(state.since_accepted(), kLongestAge)));
   }
   const prf_core::MeasuredMotion motion = state.measured_motion.at(state.stamp);
   message.measured_velocity = prf_ros::to_vector3(motion.velocity);

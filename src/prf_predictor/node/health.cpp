@@ -15,6 +15,11 @@ Health::Health() {
   updater_.add("target", this, &Health::fill);
 }
 
+void Health::warn(const std::string& what, const std::string& detail) {
+  count(what);
+  ROS_WARN_THROTTLE(1.0, "%s: %s", what.c_str(), detail.c_str());
+}
+
 void Health::drop(const std::string& reason, const std::string& detail) {
   count("dropped: " + reason);
   ROS_WARN_THROTTLE(1.0, "measurement dropped, %s %s", reason.c_str(), detail.c_str());
@@ -39,7 +44,11 @@ void Health::report(const TrackerResult& result) {
   if (arrival == Arrival::kTooOld) drop("older than all history");
   if (arrival == Arrival::kReplayed) count("images replayed out of order");
   if (state.gated) drop("outside the gate", "NIS " + std::to_string(state.nis));
-  if (state.orientation_gated) drop("orientation outside the gate");
+  if (state.orientation.gated) {
+    drop("orientation outside the gate", "NIS " + std::to_string(state.orientation.nis));
+  }
+  if (state.orientation.alternative) count("pose flips, the tag's other pose was used");
+  if (state.orientation.reacquired) count("orientations re-acquired");
   if (state.reacquired) count("targets re-acquired");
   if (state.reinitialised) drop("belief not finite", "filter starts anew");
 }

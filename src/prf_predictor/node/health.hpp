@@ -17,6 +17,8 @@ class Health {
   Health();
 
   void count(const std::string& what) { ++counts_[what]; }
+  // Counts and warns, throttled.
+  void warn(const std::string& what, const std::string& detail);
   void drop(const std::string& reason, const std::string& detail = "");
   void report_publisher(const std::string& name);  // of each message of tag_detections
   void report(const TrackerResult& result);

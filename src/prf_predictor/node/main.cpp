@@ -20,30 +20,34 @@ namespace {
 using prf_core::from_seconds;
 using prf_core::StampOrder;
 using prf_ros::to_core;
-using Readiness = CameraTransforms::Readiness;
+using Readiness = FrameChain::Readiness;
 using ArrayPtr = prf_msgs::TagDetectionArrayConstPtr;
+
+std::string seconds_text(Stamp stamp) { return std::to_string(prf_core::to_seconds(stamp)) + " s"; }
 
 class TargetPredictorNode {
  public:
   TargetPredictorNode(ros::NodeHandle node, const TargetPredictorParams& params)
       : params_(params),
-        transforms_(params.planning_frame, params.tag_frame_prefix, from_seconds(params.tf_wait)),
+        transforms_(params.planning_frame, params.tag_frame_prefix, from_seconds(params.tf_wait),
+                    health_),
         tracker_(params.tracker, params.predictor) {
     const auto hints = ros::TransportHints().tcpNoDelay();
-    using Tf = tf2_msgs::TFMessageConstPtr;
     subscribers_ = {
-        node.subscribe<tf2_msgs::TFMessage>(
-            "/tf_static", 100, [this](const Tf& tf) { on_tf(*tf, true); }, nullptr, hints),
-        node.subscribe<tf2_msgs::TFMessage>(
-            "/tf", 1000, [this](const Tf& tf) { on_tf(*tf, false); }, nullptr, hints),
+        node.subscribe("/tf_static", 100, &TargetPredictorNode::on_static_tf, this, hints),
+        node.subscribe("/tf", 1000, &TargetPredictorNode::on_moving_tf, this, hints),
         node.subscribe("tag_detections", 100, &TargetPredictorNode::on_detections, this, hints)};
     // After subscribing: a node that waits for this publisher may start, nothing is missed.
     publisher_ = node.advertise<prf_msgs::TargetForecast>("target/forecast", 100);
   }
 
  private:
-  void on_tf(const tf2_msgs::TFMessage& message, bool is_static) {
-    transforms_.add(message, is_static);
+  using TfEvent = ros::MessageEvent<const tf2_msgs::TFMessage>;
+
+  void on_static_tf(const TfEvent& event) { on_tf(event, true); }
+  void on_moving_tf(const TfEvent& event) { on_tf(event, false); }
+  void on_tf(const TfEvent& event, bool is_static) {
+    transforms_.add(*event.getConstMessage(), event.getPublisherName(), is_static);
     process_ready_images();
   }
 
@@ -55,7 +59,8 @@ class TargetPredictorNode {
     const StampOrder order = clock_.observe(stamp);
     if (order == StampOrder::kBackwardJump) begin_run(before, stamp);
     if (order == StampOrder::kFarAhead) {
-      health_.drop("stamp far in the future");
+      health_.drop("stamp far in the future",
+                   seconds_text(stamp) + ", newest image at " + seconds_text(before));
     } else {
       waiting_.push_back(array);
     }
@@ -63,8 +68,8 @@ class TargetPredictorNode {
   }
 
   void begin_run(Stamp before, Stamp stamp) {
-    ROS_WARN("detection stamps went back from %.3f to %.3f s: new run",
-             prf_core::to_seconds(before), prf_core::to_seconds(stamp));
+    ROS_WARN("detection stamps went back from %s to %s: new run", seconds_text(before).c_str(),
+             seconds_text(stamp).c_str());
     for (; !waiting_.empty(); waiting_.pop_front()) process(*waiting_.front(), {});
     transforms_.begin_run(stamp);
     health_.publish_now();
@@ -85,17 +90,16 @@ class TargetPredictorNode {
     if (waiting_.empty()) health_.publish();
   }
 
-  CameraTransforms::LookupResult camera_at(const prf_msgs::TagDetectionArray& array) const {
+  FrameChain::LookupResult camera_at(const prf_msgs::TagDetectionArray& array) {
     if (array.detections.empty()) {
-      CameraTransforms::LookupResult not_needed;
+      FrameChain::LookupResult not_needed;
       not_needed.readiness = Readiness::kReady;
       return not_needed;
     }
     return transforms_.lookup(array.header.frame_id, to_core(array.header.stamp));
   }
 
-  void process(const prf_msgs::TagDetectionArray& array,
-               const CameraTransforms::LookupResult& camera) {
+  void process(const prf_msgs::TagDetectionArray& array, const FrameChain::LookupResult& camera) {
     std::vector<TagMeasurement> measurements;
     if (camera.readiness == Readiness::kReady) {
       measurements = measurements_of(array, camera.camera_in_planning);
@@ -118,6 +122,7 @@ class TargetPredictorNode {
         health_.count("default covariance");
       }
       if (checked.status == MeasurementStatus::kNotFinite) health_.drop("not finite");
+      if (checked.status == MeasurementStatus::kTooFar) health_.drop("more than 1000 m away");
       if (checked.status == MeasurementStatus::kNoOrientation) health_.drop("quaternion not unit");
       if (!checked.measurement) continue;
       measurements.push_back(camera_in_planning * *checked.measurement);
@@ -130,11 +135,11 @@ class TargetPredictorNode {
   }
 
   TargetPredictorParams params_;
+  Health health_;
   CameraTransforms transforms_;
   TargetTracker tracker_;
   prf_core::ClockMonitor clock_;  // of the images
   std::deque<ArrayPtr> waiting_;  // for tf
-  Health health_;
   ros::Publisher publisher_;
   std::vector<ros::Subscriber> subscribers_;
 };

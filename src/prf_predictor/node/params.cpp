@@ -25,8 +25,7 @@ void TargetPredictorParams::validate() const {
             "strictly rising and <= 60 s");
   }
   require_between("tf_wait", tf_wait, 0, 10, "s");
-  require(measurement_scale > 0 && measurement_scale <= 1e6, "measurement_scale", measurement_scale,
-          "> 0 and <= 1e6");
+  require_between("measurement_scale", measurement_scale, 1e-6, 1e6);
   defaults.validate();
   tracker.validate();
 }
@@ -44,6 +43,7 @@ TargetPredictorParams load_params(const ros::NodeHandle& private_handle) {
   params.tracker.gate_probability = values.number("gate_probability");
   params.tracker.gate_speed = values.number("gate_speed");
   params.tracker.orientation_gate_sigma = values.number("orientation_gate_sigma");
+  params.tracker.orientation_gate_speed = values.number("orientation_gate_speed");
   params.tracker.reacquire_hits = values.integer("reacquire_hits");
   params.tracker.coast_after = values.number("coast_after");
   params.tracker.lost_after = values.number("lost_after");

@@ -14,6 +14,7 @@
 namespace prf_predictor {
 
 using prf_core::require;
+using prf_core::require_between;
 using prf_core::to_seconds;
 
 namespace {
@@ -45,28 +46,23 @@ Nearest nearest_to(const TargetPredictor& target, const std::vector<TagMeasureme
   return nearest;
 }
 
-double squared_distance(const OrientationForecast& expected, const TagMeasurement& measurement,
-                        double gate_sigma) {
-  const Eigen::Vector3d residual =
-      prf_core::log_so3((measurement.orientation * expected.orientation.conjugate()).normalized());
-  return squared_distance(residual, expected.covariance + measurement.orientation_covariance +
-                                        std::pow(gate_sigma, 2) * Eigen::Matrix3d::Identity());
-}
-
 }  // namespace
 
 void TrackerParams::validate() const {
-  require(gate_probability > 0.5 && gate_probability < 1, "gate_probability", gate_probability,
-          "> 0.5 and < 1");
-  require(gate_speed >= 0 && std::isfinite(gate_speed), "gate_speed", gate_speed,
-          "finite and >= 0 m/s");
-  require(orientation_gate_sigma >= 0 && std::isfinite(orientation_gate_sigma),
-          "orientation_gate_sigma", orientation_gate_sigma, "finite and >= 0 rad");
-  require(reacquire_hits >= 2, "reacquire_hits", reacquire_hits, ">= 2");
-  require(coast_after > 0 && std::isfinite(coast_after), "coast_after", coast_after,
-          "finite and > 0 s");
+  require(gate_probability > 0.5 && gate_probability <= 0.999999999, "gate_probability",
+          gate_probability, "> 0.5 and <= 0.999999999");
+  require_between("gate_speed", gate_speed, 0, 10, "m/s");
+  require_between("orientation_gate_sigma", orientation_gate_sigma, 0, 1, "rad");
+  require_between("orientation_gate_speed", orientation_gate_speed, 0, 10, "rad/s");
+  require(reacquire_hits >= 2 && reacquire_hits <= 1000, "reacquire_hits", reacquire_hits,
+          "2 .. 1000");
+  require_between("coast_after", coast_after, 0.01, 60, "s");
   require(lost_after > coast_after && lost_after <= 3600, "lost_after", lost_after,
           "> coast_after and <= 3600 s");
+}
+
+double TrackState::since_accepted() const {
+  return to_seconds(stamp - std::min(last_accepted, orientation.last_accepted));
 }
 
 TargetTracker::TargetTracker(const TrackerParams& params,
@@ -75,16 +71,20 @@ TargetTracker::TargetTracker(const TrackerParams& params,
   params_.validate();
   require(predictor_ != nullptr, "predictor", "null", "given");
   gate_ = prf_core::chi_square_quantile(3, params.gate_probability);
+  orientation_gate_ = {gate_, params.orientation_gate_sigma, params.orientation_gate_speed,
+                       static_cast<double>(params.reacquire_hits), params.lost_after};
 }
 
 // A belief at a new time, which a measurement may still change.
 struct TargetTracker::Correction {
   std::unique_ptr<TargetPredictor> motion;
   std::unique_ptr<RotationPredictor> rotation;
+  OrientationTrack orientation;
 
-  Correction(const Belief& before, double dt)
+  Correction(const Belief& before, const OrientationTrack& track, double dt)
       : motion(before.motion->clone()),
-        rotation(std::make_unique<RotationPredictor>(*before.rotation)) {
+        rotation(std::make_unique<RotationPredictor>(*before.rotation)),
+        orientation{track.last_accepted, track.candidate} {
     motion->advance(dt);
     rotation->advance(dt);
   }
@@ -134,40 +134,44 @@ TrackState TargetTracker::step(const TrackState& before, Stamp stamp,
   state.status = before.status;
   state.belief = before.belief;
   state.last_accepted = before.last_accepted;
-  state.candidate = before.candidate;
+  state.orientation = {before.orientation.last_accepted, before.orientation.candidate};
+  state.candidates = before.candidates;
   state.measured_motion = before.measured_motion;
 
   const TagMeasurement* nearest = measurements.empty() ? nullptr : &measurements.front();
-  const bool is_lost = to_seconds(stamp - state.last_accepted) > params_.lost_after;
+  const double since_measurement = to_seconds(stamp - state.last_accepted);
+  const bool is_lost = since_measurement > params_.lost_after;
   if (state.belief && !is_lost) {
-    Correction target(*state.belief, to_seconds(stamp - before.stamp));
+    Correction target(*state.belief, before.orientation, to_seconds(stamp - before.stamp));
     state.reinitialised = !target.is_finite();
     state.belief.reset();
     if (!state.reinitialised) {
-      const double since_measurement = to_seconds(stamp - state.last_accepted);
-      nearest = nearest_to(*target.motion, measurements, params_.gate_speed * since_measurement)
-                    .measurement;
-      state.measured = accept(target, measurements, since_measurement, state);
+      const Nearest found =
+          nearest_to(*target.motion, measurements, params_.gate_speed * since_measurement);
+      state.nis = found.nis;
+      if (found.measurement != nullptr) nearest = found.measurement;
+      state.measured = accept(target, stamp, measurements, since_measurement) != nullptr;
+      state.orientation = target.orientation;
       state.belief = Belief{std::move(target.motion), std::move(target.rotation)};
     }
   }
-  const bool passed_gate = state.measured;
+  if (nearest != nullptr) {
+    state.measured_motion.add(stamp, nearest->position, nearest->position_covariance,
+                              state.measured || !before.belief);
+  }
   if (!measurements.empty() && !state.measured) {
     if (state.belief) {
       state.gated = true;
-      update_candidate(state, measurements);
+      update_candidates(state, measurements);
     } else {
       state.belief = begin(measurements.front());
+      state.orientation = {stamp, std::nullopt};
       state.measured = true;
     }
   }
   if (state.measured) {
     state.last_accepted = stamp;
-    state.candidate.reset();
-  }
-  if (nearest != nullptr) {
-    state.measured_motion.add(stamp, nearest->position, nearest->position_covariance,
-                              passed_gate || !before.belief);
+    state.candidates.clear();
   }
   update_status(state);
   return state;
@@ -181,54 +185,53 @@ Belief TargetTracker::begin(const TagMeasurement& measurement) const {
                                                     measurement.orientation_covariance)};
 }
 
-bool TargetTracker::accept(Correction& target, const std::vector<TagMeasurement>& measurements,
-                           double since_measurement, TrackState& state) const {
+const TagMeasurement* TargetTracker::accept(Correction& target, Stamp stamp,
+                                            const std::vector<TagMeasurement>& measurements,
+                                            double since_measurement) const {
   const Nearest nearest =
       nearest_to(*target.motion, measurements, params_.gate_speed * since_measurement);
-  if (nearest.measurement == nullptr) return false;
-  state.nis = nearest.nis;
-  if (!(nearest.distance <= gate_)) return false;
+  if (nearest.measurement == nullptr || !(nearest.distance <= gate_)) return nullptr;
   const TagMeasurement& measurement = *nearest.measurement;
   target.motion->correct(measurement.position, measurement.position_covariance);
-
-  const OrientationForecast expected = target.rotation->forecast(0);
-  state.orientation_nis = squared_distance(expected, measurement, 0.0);
-  state.orientation_gated =
-      !(squared_distance(expected, measurement, params_.orientation_gate_sigma) <= gate_);
-  if (!state.orientation_gated) {
-    target.rotation->correct(measurement.orientation, measurement.orientation_covariance);
-  }
-  return true;
+  target.orientation = follow_orientation(target.orientation, target.rotation, *predictor_,
+                                          measurement, stamp, orientation_gate_);
+  return &measurement;
 }
 
-void TargetTracker::update_candidate(TrackState& state,
-                                     const std::vector<TagMeasurement>& measurements) const {
-  auto& candidate = state.candidate;
-  if (candidate && to_seconds(state.stamp - candidate->stamp) > params_.lost_after)
-    candidate.reset();
-  if (candidate) {
-    const double since_measurement = to_seconds(state.stamp - candidate->stamp);
-    Correction target(candidate->belief, since_measurement);
-    TrackState of_candidate;
-    if (accept(target, measurements, since_measurement, of_candidate)) {
-      candidate->belief = {std::move(target.motion), std::move(target.rotation)};
-      candidate->stamp = state.stamp;
-      ++candidate->hits;
-    } else {
-      candidate.reset();
-    }
+void TargetTracker::update_candidates(TrackState& state,
+                                      const std::vector<TagMeasurement>& measurements) const {
+  std::vector<const TagMeasurement*> taken;
+  std::vector<TrackState::Candidate> candidates;
+  for (const auto& before : state.candidates) {
+    const double gap = to_seconds(state.stamp - before.stamp);
+    if (gap > params_.lost_after) continue;
+    Correction target(before.belief, before.orientation, gap);
+    const TagMeasurement* measurement = accept(target, state.stamp, measurements, gap);
+    if (measurement == nullptr) continue;
+    taken.push_back(measurement);
+    candidates.push_back({{std::move(target.motion), std::move(target.rotation)},
+                          target.orientation,
+                          state.stamp,
+                          before.hits + 1});
   }
-  if (!candidate) candidate = TrackState::Candidate{begin(measurements.front()), state.stamp, 1};
-  if (candidate->hits < params_.reacquire_hits) return;
+  for (const TagMeasurement& measurement : measurements) {
+    const bool is_taken = std::find(taken.begin(), taken.end(), &measurement) != taken.end();
+    if (is_taken || candidates.size() >= kMostCandidates) continue;
+    candidates.push_back({begin(measurement), {state.stamp, std::nullopt}, state.stamp, 1});
+  }
+  state.candidates = std::move(candidates);
+  // The oldest first: it is the one that is confirmed first.
+  if (state.candidates.empty() || state.candidates.front().hits < params_.reacquire_hits) return;
 
-  state.belief = candidate->belief;
+  state.belief = state.candidates.front().belief;
+  state.orientation = state.candidates.front().orientation;
   state.measured = true;
   state.gated = false;
   state.reacquired = true;
 }
 
 void TargetTracker::update_status(TrackState& state) const {
-  const double gap = to_seconds(state.stamp - state.last_accepted);
+  const double gap = state.since_accepted();
   if (!state.belief) {
     state.status = TargetStatus::kNoTarget;
   } else if (gap > params_.lost_after) {

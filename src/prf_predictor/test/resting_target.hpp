@@ -23,6 +23,7 @@ inline TrackerParams good_params() {
   params.gate_probability = 0.9999;
   params.gate_speed = 0.15;
   params.orientation_gate_sigma = 0.015;
+  params.orientation_gate_speed = 0.1;
   params.reacquire_hits = 5;
   params.coast_after = 0.15;
   params.lost_after = 1.0;

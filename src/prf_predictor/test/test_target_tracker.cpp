@@ -160,7 +160,7 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   const Eigen::Vector3d moved = kHome + Eigen::Vector3d(0.001, 0, 0);
   const auto state = tracker.process(60 * kFrame, {measurement_at(moved, {0, 0.6, 0})}).state;
   EXPECT_TRUE(state.measured);
-  EXPECT_TRUE(state.orientation_gated);
+  EXPECT_TRUE(state.orientation.gated);
   EXPECT_GT(position_of(state).x(), kHome.x());
   EXPECT_LT(prf_core::log_so3(orientation_of(state)).norm(), 1e-3);
 }

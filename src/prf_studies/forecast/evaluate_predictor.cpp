@@ -62,7 +62,7 @@ struct Figures {
 
   void add(const TrackState& state) {
     if (state.nis > 0) nis.push_back(state.nis);
-    if (state.orientation_nis > 0) orientation_nis.push_back(state.orientation_nis);
+    if (state.orientation.nis > 0) orientation_nis.push_back(state.orientation.nis);
   }
 };
 
@@ -78,7 +78,7 @@ Figures track(const Task& task, const RecordedMotion& motion, std::uint32_t seed
     figures.busy += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++figures.images;
     figures.gated += state.gated ? 1 : 0;
-    figures.orientation_gated += state.orientation_gated ? 1 : 0;
+    figures.orientation_gated += state.orientation.gated ? 1 : 0;
     if (since < task.warm_up || !state.belief) continue;
     figures.add(state);
     for (std::size_t i = 0; i < task.horizons.size(); ++i) {

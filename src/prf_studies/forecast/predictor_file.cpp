@@ -37,6 +37,7 @@ prf_predictor::TrackerParams read_tracker_params(const std::string& path) {
     params.gate_probability = root["gate_probability"].as<double>();
     params.gate_speed = root["gate_speed"].as<double>();
     params.orientation_gate_sigma = root["orientation_gate_sigma"].as<double>();
+    params.orientation_gate_speed = root["orientation_gate_speed"].as<double>();
     params.reacquire_hits = root["reacquire_hits"].as<int>();
     params.coast_after = root["coast_after"].as<double>();
     params.lost_after = root["lost_after"].as<double>();
