@@ -45,7 +45,7 @@ void SimParams::validate() const {
   prf_core::require_between("patience", patience, 0.0, response_timeout, "s");
   prf_core::require_between("real_time_factor", real_time_factor, 0.0, 1000.0);
   prf_core::require_between("time_limit", time_limit, 0.01, 86400.0, "s");
-  prf_core::require_between("end_delay", end_delay, 0.0, 60.0, "s");
+  prf_core::require_between("end_delay", end_delay, 0.0, 86400.0, "s");
   try {
     camera.validate();
   } catch (const std::invalid_argument& error) {

@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,13 +67,16 @@ int main(int argc, char** argv) {
     ROS_FATAL("usage: recorder BAG TOPIC [TOPIC ...]");
     return 2;
   }
+  std::unique_ptr<Recorder> recorder;
   try {
-    Recorder recorder(words.front(), {words.begin() + 1, words.end()});
+    recorder =
+        std::make_unique<Recorder>(words.front(), std::vector(words.begin() + 1, words.end()));
     ros::spin();
-    recorder.close();
+    recorder->close();
   } catch (const std::exception& error) {
     ROS_FATAL("%s cannot be written: %s", words.front().c_str(), error.what());
-    return 1;
+    std::fflush(nullptr);
+    std::_Exit(1);  // the destructor of a bag that cannot be written throws
   }
   return 0;
 }

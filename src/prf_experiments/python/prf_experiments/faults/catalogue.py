@@ -19,6 +19,7 @@ NODES = ("robot_state_publisher", "tag_detector", "target_predictor", "decision"
          "arm_controller", "platform_sim", "recorder")
 SENSED = ("joint_states", "camera/image_raw", "camera/camera_info")
 ONCE_AT = 5.0  # s
+LONGEST = 86400.0  # s, of any trial
 END_OF_TIME = 4294967295.0  # s, the last second that a ROS time can hold
 
 
@@ -133,12 +134,12 @@ def parse_one(word: str) -> Fault:
                          "amount" + (f" ({kind.unit})" if kind.unit else ""))
     begin = 0.0 if kind.lasts else ONCE_AT
     if match["begin"]:
-        begin = _number(match["begin"], word, 0.0, 3600.0, "time (s)")
+        begin = _number(match["begin"], word, 0.0, LONGEST, "time (s)")
     end = math.inf
     if match["end"]:
         if not kind.lasts:
             raise FaultError(f"{word}: {match['name']} happens once, it has no end")
-        end = _number(match["end"], word, begin, 3600.0, "end (s)")
+        end = _number(match["end"], word, begin, LONGEST, "end (s)")
     return Fault(word, match["name"], target, amount, begin, end)
 
 

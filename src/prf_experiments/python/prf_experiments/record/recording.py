@@ -4,6 +4,7 @@ import json
 import os
 import stat
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -320,22 +321,25 @@ class _Reader:
         return pose
 
 
-def read(path: str, tag_id: int = 0) -> Recording:
-    """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing."""
+def read(path: str, tag_id: int = 0, without: Sequence[str] = ()) -> Recording:
+    """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing.
+
+    Of the topics `without` it need not have a message.
+    """
     if not os.path.exists(path):
         raise RecordingError(f"{path}: there is no such bag")
     try:
-        return _read(path, _Reader(tag_id))
+        return _read(path, _Reader(tag_id), without)
     except (rosbag.ROSBagException, *DAMAGES) as error:
         raise RecordingError(f"{path}: broken: {error}") from None
 
 
-def _read(path, reader):
+def _read(path, reader, without):
     with open_bag(path) as bag:
         counts = {name.lstrip("/"): info.message_count
                   for name, info in bag.get_type_and_topic_info().topics.items()}
         missing = [name for name in topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS
-                   if not counts.get(name)]
+                   if not counts.get(name) and name not in without]
         if missing:
             raise RecordingError(f"{path}: no message of " + ", ".join(missing))
         for topic, message, _ in bag.read_messages(topics=reader.topics):
@@ -354,7 +358,7 @@ def _read(path, reader):
         contacts=reader.contacts,
         detection_stamps=reader.stamps("tag_detections"),
         detections=reader.poses("tag_detections").values,
-        images=counts["camera/image_raw"],
+        images=counts.get("camera/image_raw", 0),
         progress=reader.progress(),
         forecasts=reader.forecasts(),
         plans=reader.plans,

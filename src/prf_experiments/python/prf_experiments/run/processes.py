@@ -51,11 +51,12 @@ def reserved_port() -> Iterator[int]:
 
 
 def master_environment(port: int, log_folder: str) -> dict[str, str]:
-    """Environment variables of every process of a trial."""
-    values = {"ROS_MASTER_URI": f"http://localhost:{port}", "ROS_LOG_DIR": log_folder,
+    """Environment variables of every process of a trial: all of it stays on this machine."""
+    values = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}", "ROS_LOG_DIR": log_folder,
               "ROSCONSOLE_FORMAT": "[${severity}] [${node}] ${message}"}
     if "ROS_IP" not in os.environ:
-        values["ROS_HOSTNAME"] = "localhost"
+        values["ROS_IP"] = "127.0.0.1"
+        values["ROS_HOSTNAME"] = "127.0.0.1"  # it would win over ROS_IP
     return values
 
 

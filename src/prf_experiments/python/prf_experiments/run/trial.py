@@ -12,7 +12,7 @@ from prf_experiments.faults import catalogue, wiring
 from prf_experiments.judge import invariants, judge, reaction
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
-from prf_experiments.run import connections, processes, session, trial_arguments
+from prf_experiments.run import connections, isolation, processes, session, trial_arguments
 from prf_experiments.teach import demonstration
 
 SIMULATOR = "platform_sim"
@@ -170,7 +170,7 @@ def run(values: dict, folder: str | None = None) -> int:
 
 
 def main(words: list[str]) -> int:
-    valid = trial_arguments.TRIAL
+    valid, given = trial_arguments.TRIAL, words
     if any(word in ("-h", "--help") for word in words):
         print("usage: run_trial [--into FOLDER] [name:=value ...]\n" + trial_arguments.usage())
         return EXIT_OK
@@ -182,6 +182,15 @@ def main(words: list[str]) -> int:
     except args.ArgumentError as error:
         print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
         return EXIT_USAGE
+    if values["isolated"]:
+        try:
+            if isolation.is_inside():
+                isolation.raise_loopback()
+            else:
+                isolation.enter("prf_experiments.run.trial", given)
+        except (isolation.IsolationError, OSError) as error:
+            print(f"run_trial: {error}", file=sys.stderr)
+            return 1
     return session.guarded("run_trial", lambda: run(values, folder))
 
 

@@ -68,6 +68,8 @@ RESULTS = {"results": Argument(os.path.abspath("results"), **path(),
                                meaning="folder that gets the results")}
 TRIAL = {
     **LAUNCHED, **RESULTS,
+    "isolated": Argument(False, **boolean(),
+                         meaning="true: in a network namespace of its own, which nobody can reach"),
     "report": Argument(True, **boolean(), meaning="false: draw no report"),
     "keep_bag": Argument(True, **boolean(), meaning="false: delete the bag at the end"),
 }

@@ -18,8 +18,11 @@ STUDIES = {
     "compare": "distances of ELTE, DMP, LTE and elastic maps, stepping, paired by seed",
     "ablate": "predictor, decision and planner under heavy motion, stepping",
     "cart": "the box is pushed aside during the execution",
+    "faults": "every fault injected, standing and stepping: verdict, time to hold and to recover",
     "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",
 }
+SOAK = ("executions again and again under heavy motion, stepping, with faults at random: memory, "
+        "recoveries, drift")
 SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
 
 
@@ -27,6 +30,13 @@ def positive(text: str) -> int:
     value = int(text)
     if value < 1:
         raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value
+
+
+def hours(text: str) -> float:
+    value = float(text)
+    if not 0.02 <= value <= 24.0:
+        raise argparse.ArgumentTypeError(f"{text} is not 0.02 .. 24 hours")
     return value
 
 
@@ -52,6 +62,12 @@ def parser() -> argparse.ArgumentParser:
         + trial_arguments.usage())
     commands = result.add_subparsers(dest="experiment", metavar="EXPERIMENT")
     commands.add_parser("trial", help="one trial, as without any experiment")
+    soak = commands.add_parser("soak", prog="run_experiment soak", help=SOAK, description=SOAK)
+    soak.add_argument("--hours", type=hours, default=1.0, metavar="H", help="simulated [1]")
+    soak.add_argument("--seed", type=positive, default=1, metavar="N", help="[1]")
+    soak.add_argument("--keep-bag", action="store_true", help="it is large")
+    soak.add_argument("--json", metavar="FILE", help="writes the numbers there too")
+    soak.add_argument("--results-page", metavar="FILE.md", help="writes the table there")
     for name, meaning in STUDIES.items():
         sweep = commands.add_parser(name, prog=f"run_experiment {name}", help=meaning,
                                     description=meaning,
@@ -83,7 +99,9 @@ def parse(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
     """(options, name:=value words); raises ArgumentError or, from argparse, SystemExit."""
     named = [word for word in words if ":=" in word]
     options = parser().parse_args([word for word in words if ":=" not in word])
-    if options.experiment in STUDIES:
+    if options.experiment == "soak":
+        options.results = args.parse(named, trial_arguments.RESULTS)["results"]
+    elif options.experiment in STUDIES:
         options.values = args.parse_lists(named, SWEEP_ARGUMENTS)
         if options.seeds and "seed" in options.values:
             raise args.ArgumentError("--seeds and seed:= say the same, give one of them")
@@ -110,6 +128,9 @@ def main(words: list[str]) -> int:
         described = importlib.import_module("prf_experiments.sweep." + options.experiment).STUDY
         shown = [word for word in words if not word.startswith("results:=")]
         return study.main(described, options, "./run_experiment " + " ".join(shown), named)
+    if options.experiment == "soak":
+        from prf_experiments.soak import soak
+        return soak.main(options)
     from prf_experiments.run import trial
     return trial.main(named)
 

@@ -26,7 +26,7 @@ class Catalogue(unittest.TestCase):
                            ("drop/decision", "no target"), ("kill/tag_detections", "decision"),
                            ("drop/tf:1.5", "0 .. 1"), ("drop/tf:nan", "is no fault"),
                            ("delay/tf:0", "0.001 .. 60"), ("kill/decision@5-6", "no end"),
-                           ("drop/tf@5-4", "5 .. 3600"), ("false_tag,false_tag", "twice"),
+                           ("drop/tf@5-4", "5 .. 86400"), ("false_tag,false_tag", "twice"),
                            ("clock,false_tag", "does not go"), ("false_tag/tf", "none")):
             with self.assertRaises(catalogue.FaultError, msg=text) as caught:
                 catalogue.parse(text)
