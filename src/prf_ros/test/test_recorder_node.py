@@ -3,6 +3,7 @@
 """The recorder loses no message, closes its bag on SIGINT, and says when it cannot write."""
 import os
 import random
+import resource
 import signal
 import string
 import subprocess
@@ -66,6 +67,22 @@ class Recorder(unittest.TestCase):
     def test_says_by_its_exit_code_that_it_cannot_write(self):
         recorder = self.start(os.path.join(self.bag, "in_no_folder.bag"), "/numbers")
         self.assertEqual(recorder.wait(20.0), 1)
+
+    # Fault 35, 49, A8: the disk is full while the bag is written -> the recorder says so and ends with code 1
+    def test_ends_with_its_exit_code_when_the_disk_is_full(self):
+        recorder = subprocess.Popen(
+            [RECORDER, self.bag, "/numbers", "__name:=recorder_under_test"], text=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+            preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+        self.addCleanup(recorder.kill)
+        self.wait_until(lambda: self.publisher.get_num_connections() == 1, "no subscriber")
+        resource.prlimit(recorder.pid, resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))
+        filling = "".join(random.Random(1).choices(string.printable, k=SIZE))
+        for number in range(COUNT):
+            self.publisher.publish(f"{number} {filling}")
+        self.assertIn("cannot be written", recorder.communicate(timeout=20.0)[1])
+        self.assertEqual(recorder.returncode, 1)
+        self.assertFalse(os.path.exists(self.bag))
 
     def test_needs_a_bag_and_a_topic(self):
         self.assertEqual(self.start(self.bag).wait(20.0), 2)

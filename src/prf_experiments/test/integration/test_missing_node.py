@@ -74,6 +74,7 @@ class MissingNode(unittest.TestCase):
                     pass
         self.assertIn("cannot start roscpp/no_such_program", str(caught.exception))
 
+    # Fault 34: a node of the lockstep is absent -> the simulator ends with a message naming the topic, code not 0
     def test_absent_controller_is_named_by_its_topic(self):
         with self.launched("without:=arm_controller") as launch:
             self.assertIn("joint_command", self.end_of_simulator(launch))
@@ -82,6 +83,7 @@ class MissingNode(unittest.TestCase):
         with self.launched("without:=skill_planner") as launch:
             self.assertIn("skill/trajectory", self.end_of_simulator(launch))
 
+    # Fault 34: a node of the lockstep falls silent -> the simulator ends with a message naming the topic, code not 0
     def test_silent_predictor_is_named_by_its_topic(self):
         with self.launched("without:=none", "paused:=true") as launch:
             self.start_when_connected()
@@ -93,6 +95,7 @@ class MissingNode(unittest.TestCase):
             finally:
                 os.kill(pid, signal.SIGCONT)
 
+    # Fault 26, 34: a node dies and nobody asked for it -> the trial is INVALID and says which node
     def test_a_node_that_dies_makes_the_trial_invalid(self):
         with tempfile.TemporaryDirectory() as results:
             trial = runs.start("run_trial", f"results:={results}", "real_time_factor:=1.0")

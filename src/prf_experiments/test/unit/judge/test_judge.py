@@ -177,6 +177,7 @@ class Failures(unittest.TestCase):
         data.base.values[500] = np.concatenate([[-0.156, 0.0, height], turned])
         return data
 
+    # Fault 36: the robot falls -> F with the time and the reason
     def test_low_body_has_fallen(self):
         self.assertEqual(judge.judge(self.base_at(0.35 + MICROMETRE, 0.0)).verdict, "S")
         verdict = judge.judge(self.base_at(0.35 - MICROMETRE, 0.0))
@@ -247,6 +248,31 @@ class Evidence(unittest.TestCase):
 
     def test_ending_early_invalidates_even_when_reached(self):
         self.assertIn("before its time", self.reason(synthetic.make_recording(state="TRACKING")))
+
+    # Fault A11: a run that reaches its own, shorter time limit -> F "not reached", not INVALID
+    def test_the_trials_own_time_limit_is_a_whole_trial(self):
+        data = synthetic.make_recording(20.0, lateral=0.2, state="FORWARD")
+        self.assertIn("before its time", self.reason(data))
+        data.description = {"arguments": {"time_limit": 20.0}}
+        verdict = judge.judge(data)
+        self.assertEqual(verdict.verdict, "F")
+        self.assertIn("not reached", verdict.reason)
+
+    # Fault 40: gaps in what the framework says while faults are injected -> judged by the truth; the truth has none
+    def test_gaps_of_the_framework_are_part_of_a_trial_with_faults(self):
+        for fault, verdict in (("", "INVALID"), ("kill/tag_detector", "S")):
+            data = synthetic.make_recording()
+            data.description = {"arguments": {"fault": fault}}
+            progress = data.progress
+            keep = np.delete(np.arange(len(progress.stamps)), slice(300, 350))
+            data.progress = recording.Progress(
+                progress.stamps[keep], progress.states[keep], progress.posteriors[keep],
+                progress.cursors[keep], [""] * len(keep))
+            data.images += 100
+            self.assertEqual(judge.judge(data).verdict, verdict)
+            data.camera = recording.Poses(np.delete(data.camera.stamps, 500),
+                                          np.delete(data.camera.values, 500, axis=0))
+            self.assertEqual(judge.judge(data).verdict, "INVALID")
 
     def test_sixty_seconds_are_a_whole_trial_in_any_state(self):
         data = synthetic.make_recording(60.0, lateral=0.3, state="PAUSE")

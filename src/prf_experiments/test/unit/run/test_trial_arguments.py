@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+import os
 import subprocess
 import sys
 import tempfile
@@ -35,6 +36,27 @@ class TrialArguments(unittest.TestCase):
         for word in ("motion:=wild", "motion:=absent.yaml", "body_motion:=absent.csv"):
             with self.assertRaises(args.ArgumentError):
                 self.values(word)
+
+    def test_trials_of_files_with_one_name_are_told_apart_by_their_content(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = []
+            for place, content in (("a", "1"), ("b", "2"), ("c", "1")):
+                os.mkdir(os.path.join(folder, place))
+                file = os.path.join(folder, place, "sea.csv")
+                with open(file, "w", encoding="utf-8") as stream:
+                    stream.write(content)
+                found.append(self.values(f"motion:={file}"))
+            first, other, copy = found
+            names = [trial_arguments.name(values) for values in found]
+            self.assertNotEqual(names[0], names[1])
+            self.assertEqual(names[0], names[2])
+            self.assertRegex(names[0], "motion-sea.csv-[0-9a-f]{8}_")
+            verdict = {"arguments": first, "files": trial_arguments.contents(first)}
+            self.assertTrue(trial_arguments.same(copy, verdict))
+            self.assertFalse(trial_arguments.same(other, verdict))
+            with open(first["motion"], "w", encoding="utf-8") as stream:
+                stream.write("changed")
+            self.assertFalse(trial_arguments.same(first, verdict))
 
     def test_the_floor_under_the_cart_does_not_move(self):
         self.assertEqual(self.complete("scenario:=cart")["motion"], "none")

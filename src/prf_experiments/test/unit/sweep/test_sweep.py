@@ -21,7 +21,8 @@ def trials(*seeds):
 
 def verdict(values, what="S"):
     return {"verdict": what, "inspected": True, "reason": "made up", "figures": {},
-            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED}}
+            "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
+            "files": trial_arguments.contents(values)}
 
 
 class Attempts:
@@ -116,6 +117,27 @@ class Sweep(unittest.TestCase):
                 bag = os.path.join(sweep.trial_folder(self.folder, values), "trial.bag")
                 self.assertEqual(os.path.exists(bag), result["verdict"] in kept, keep)
                 self.assertEqual(result["disk_bytes"] >= 1000, result["verdict"] in kept)
+
+    def test_files_of_one_name_are_trials_of_their_own_and_one_file_twice_is_refused(self):
+        files = []
+        for place, content in (("a", "1"), ("b", "2"), ("c", "1")):
+            os.makedirs(os.path.join(self.folder, place))
+            files.append(os.path.join(self.folder, place, "sea.csv"))
+            with open(files[-1], "w", encoding="utf-8") as stream:
+                stream.write(content)
+        both = [{**DEFAULTS, "motion": file} for file in files]
+        attempt = Attempts()
+
+        def run(trials):
+            return sweep.run(trials, self.folder, sweep.SweepParams(jobs=2), VERSION, attempt,
+                             lambda total, kept: sweep.Board(total, kept, io.StringIO()))
+        run(both[:2])
+        self.assertEqual(len(set(attempt.asked)), 2)
+        again = run([both[2]])  # the same content elsewhere: finished before, under its new place
+        self.assertEqual(len(attempt.asked), 2)
+        self.assertEqual(again[0]["arguments"]["motion"], files[2])
+        with self.assertRaisesRegex(session.SessionError, "the same"):
+            run([both[0], both[2]])
 
     def test_refuses_to_mix_versions_unless_it_may(self):
         self.run_sweep(Attempts(), seeds=(1,))
