@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "prf_core/bounds.hpp"
 #include "prf_core/require.hpp"
 
 namespace prf_core {
@@ -13,22 +14,21 @@ namespace {
 void validate_prediction(const std::string& name, const TargetPrediction& prediction) {
   require_pose(name + ".pose", prediction.target.pose);
   const auto& [pose, linear, angular] = prediction.target;
-  require(linear.allFinite(), name + ".linear_velocity", linear.transpose(), "finite");
-  require(angular.allFinite(), name + ".angular_velocity", angular.transpose(), "finite");
-  require(prediction.covariance.allFinite(), name + ".covariance", "not finite", "finite");
+  require_within(name + ".linear_velocity", linear, kMaxSpeed, "m/s");
+  require_within(name + ".angular_velocity", angular, kMaxAngularSpeed, "rad/s");
+  require_within(name + ".covariance", prediction.covariance, kMaxVariance, "m^2");
 }
 
 }  // namespace
 
 void TargetForecast::validate() const {
+  require_stamp("stamp", stamp);
   require(since_measurement >= Duration{0}, "since_measurement", to_seconds(since_measurement),
           ">= 0 s");
-  require(measured_motion.velocity.allFinite(), "measured_velocity",
-          measured_motion.velocity.transpose(), "finite");
-  require(measured_motion.velocity_covariance.allFinite(), "measured_velocity_covariance",
-          "not finite", "finite");
-  require(std::isfinite(measured_motion.speed) && measured_motion.speed >= 0, "measured_speed",
-          measured_motion.speed, "finite and >= 0 m/s");
+  require_within("measured_velocity", measured_motion.velocity, kMaxSpeed, "m/s");
+  require_within("measured_velocity_covariance", measured_motion.velocity_covariance, kMaxVariance,
+                 "(m/s)^2");
+  require_between("measured_speed", measured_motion.speed, 0.0, kMaxSpeed, "m/s");
   const bool has_target = status == TargetStatus::kTracking || status == TargetStatus::kCoasting;
   require(!has_target || !predictions.empty(), "predictions", "[]",
           "at least one while the target is tracked or coasted");
@@ -38,6 +38,7 @@ void TargetForecast::validate() const {
     const bool rises = i == 0 ? horizon == Duration{0} : horizon > predictions[i - 1].horizon;
     require(rises, name + ".horizon", to_seconds(horizon),
             i == 0 ? "0 s" : "greater than the one before");
+    require(horizon <= kMaxHorizon, name + ".horizon", to_seconds(horizon), "<= 3600 s");
     validate_prediction(name, predictions[i]);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "prf_core/bounds.hpp"
 #include "prf_core/require.hpp"
 
 namespace prf_core {
@@ -25,7 +26,7 @@ Pose pose_from(const Eigen::Isometry3d& isometry) {
 }
 
 void require_pose(const std::string& name, const Pose& pose) {
-  require(pose.position.allFinite(), name + ".position", pose.position.transpose(), "finite");
+  require_within(name + ".position", pose.position, kMaxPosition, "m");
   const double norm = pose.orientation.norm();
   require(std::abs(norm - 1.0) <= kUnitQuaternionTolerance, name + ".orientation's norm", norm,
           "1 within 0.001");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "expect_refused.hpp"
+#include "prf_core/bounds.hpp"
 #include "random_pose.hpp"
 
 namespace prf_core {
@@ -41,6 +42,7 @@ TEST(TargetForecast, NeedsNoPredictionsWithoutATarget) {
   }
 }
 
+// Fault 1, 2, 42, 43: NaN, no unit quaternion, absurd numbers or stamps in a forecast -> refused
 TEST(TargetForecast, IsRefusedByMemberValueAndBound) {
   const std::string no_predictions =
       "predictions = [], must be at least one while the target is tracked or coasted";
@@ -64,7 +66,19 @@ TEST(TargetForecast, IsRefusedByMemberValueAndBound) {
         [](auto& f) { f.predictions[2].target.linear_velocity.x() = INFINITY; }},
        {"predictions[2].angular_velocity",
         [](auto& f) { f.predictions[2].target.angular_velocity.z() = NAN; }},
-       {"predictions[2].covariance", [](auto& f) { f.predictions[2].covariance(0, 5) = NAN; }}});
+       {"predictions[2].covariance", [](auto& f) { f.predictions[2].covariance(0, 5) = NAN; }},
+       {"stamp", [](auto& f) { f.stamp = kMaxStamp + Duration{1}; }},
+       {"predictions[2].horizon = 3601, must be <= 3600 s",
+        [](auto& f) { f.predictions[2].horizon = seconds(3601); }},
+       {"predictions[0].pose.position",
+        [](auto& f) { f.predictions[0].target.pose.position.y() = 1e300; }},
+       {"predictions[1].linear_velocity",
+        [](auto& f) { f.predictions[1].target.linear_velocity.z() = -1e300; }},
+       {"predictions[1].angular_velocity",
+        [](auto& f) { f.predictions[1].target.angular_velocity.z() = 1e300; }},
+       {"predictions[0].covariance", [](auto& f) { f.predictions[0].covariance(5, 5) = 1e300; }},
+       {"measured_velocity", [](auto& f) { f.measured_motion.velocity.x() = 1e300; }},
+       {"measured_speed", [](auto& f) { f.measured_motion.speed = 1e300; }}});
 }
 
 // Circle of 0.1 m at 2 rad/s while turning about z at 0.7 rad/s.

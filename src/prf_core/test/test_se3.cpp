@@ -112,7 +112,7 @@ TEST(RequirePose, NamesWhatIsNotFiniteOrNotUnit) {
   EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({Vector3d::Zero(), Quaterniond(1.0009, 0, 0, 0)}), "");
   EXPECT_EQ(message({Vector3d(0, nan, 0), Quaterniond::Identity()}),
-            "goal.position =   0 nan   0, must be finite");
+            "goal.position =   0 nan   0, must be finite and within +-10000 m");
   EXPECT_EQ(message({Vector3d::Zero(), Quaterniond(1.002, 0, 0, 0)}),
             "goal.orientation's norm = 1.002, must be 1 within 0.001");
   EXPECT_NE(message({Vector3d::Zero(), Quaterniond(nan, 0, 0, 0)}), "");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_ros/conversions.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <prf_core/bounds.hpp>
 #include <prf_core/require.hpp>
 
 namespace prf_ros {
@@ -32,12 +34,29 @@ prf_core::Pose to_core(const geometry_msgs::Pose& pose) {
   return result;
 }
 
+std::optional<prf_core::Stamp> usable_stamp(const ros::Time& stamp) {
+  const prf_core::Stamp result = to_core(stamp);
+  if (!prf_core::is_usable_stamp(result)) return std::nullopt;
+  return result;
+}
+
+prf_core::Stamp checked_stamp(const std::string& name, const ros::Time& stamp) {
+  const prf_core::Stamp result = to_core(stamp);
+  prf_core::require_stamp(name, result);
+  return result;
+}
+
 ros::Time to_ros_time(prf_core::Stamp stamp) {
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
+  const prf_core::Stamp least{0};
+  const prf_core::Stamp most = to_core(ros::TIME_MAX);
+  const auto held = std::clamp(stamp, least, most).count();
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(held));
 }
 
 ros::Duration to_ros_duration(prf_core::Duration duration) {
-  return ros::Duration().fromNSec(duration.count());
+  const prf_core::Duration least = to_core(ros::DURATION_MIN);
+  const prf_core::Duration most = to_core(ros::DURATION_MAX);
+  return ros::Duration().fromNSec(std::clamp(duration, least, most).count());
 }
 
 geometry_msgs::Point to_point(const Eigen::Vector3d& vector) {
@@ -115,7 +134,7 @@ std::uint8_t to_message(prf_core::TargetStatus status) {
 
 prf_core::TargetForecast to_core(const prf_msgs::TargetForecast& message) {
   prf_core::TargetForecast forecast;
-  forecast.stamp = to_core(message.header.stamp);
+  forecast.stamp = checked_stamp("header.stamp", message.header.stamp);
   forecast.status = to_target_status(message.status);
   forecast.since_measurement = to_core(message.since_measurement);
   for (const auto& prediction : message.predictions) {

@@ -3,9 +3,12 @@
 
 #include <ros/console.h>
 
+#include <boost/core/demangle.hpp>
 #include <optional>
+#include <prf_core/quoted.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <typeinfo>
 #include <utility>
 
 namespace prf_ros {
@@ -20,6 +23,10 @@ bool is_number(const XmlRpcValue& value) {
 double to_number(XmlRpcValue& value) {
   if (value.getType() == XmlRpcValue::TypeInt) return static_cast<int>(value);
   return static_cast<double>(value);
+}
+
+std::string type_name(const std::exception& error) {
+  return boost::core::demangle(typeid(error).name());
 }
 
 XmlRpcValue fetch(const ros::NodeHandle& handle) {
@@ -139,7 +146,13 @@ int run(const std::function<void()>& node_main) {
   } catch (const std::invalid_argument& error) {
     ROS_FATAL("parameter refused: %s", error.what());
     return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL("ended by an error that nothing handles: %s: %s", type_name(error).c_str(),
+              prf_core::quoted(error.what()).c_str());
+  } catch (...) {
+    ROS_FATAL("ended by an error that nothing handles, of unknown type");
   }
+  return 3;
 }
 
 }  // namespace prf_ros

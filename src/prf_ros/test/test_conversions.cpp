@@ -28,6 +28,25 @@ TEST(Conversions, KeepEveryNanosecond) {
   EXPECT_EQ(to_core(ros::Duration(-1, 999'999'999)), prf_core::Duration{-1});
 }
 
+// Fault 42: stamps and sums at the ends of ROS time -> refused, or held to its ends; never a throw
+TEST(Conversions, HoldStampsToTheEndsOfRosTime) {
+  using prf_core::Stamp;
+  EXPECT_EQ(to_ros_time(Stamp{-1}), ros::Time(0, 0));
+  EXPECT_EQ(to_ros_time(Stamp::min()), ros::Time(0, 0));
+  EXPECT_EQ(to_ros_time(Stamp::max()), ros::TIME_MAX);
+  EXPECT_EQ(to_ros_time(to_core(ros::TIME_MAX) + std::chrono::hours(1)), ros::TIME_MAX);
+  EXPECT_EQ(to_ros_duration(prf_core::Duration::max()), ros::DURATION_MAX);
+  EXPECT_EQ(to_ros_duration(prf_core::Duration::min()), ros::DURATION_MIN);
+  for (const ros::Time& stamp : {ros::TIME_MAX, ros::Time(4294963696, 0)}) {
+    EXPECT_FALSE(usable_stamp(stamp));
+    EXPECT_THROW((void)checked_stamp("stamp", stamp), std::invalid_argument);
+  }
+  for (const ros::Time& stamp : {ros::Time(0, 0), ros::Time(4294963695, 0)}) {
+    EXPECT_EQ(to_ros_time(*usable_stamp(stamp)), stamp);
+    EXPECT_EQ(to_ros_time(checked_stamp("stamp", stamp)), stamp);
+  }
+}
+
 TEST(Conversions, KeepEveryComponent) {
   const Eigen::Vector3d vector(0.1, -2.0, 3e-7);
   EXPECT_EQ(to_core(to_point(vector)), vector);

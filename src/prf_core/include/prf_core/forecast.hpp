@@ -46,10 +46,10 @@ struct TargetForecast {
   std::vector<TargetPrediction> predictions;  // horizons rise strictly from 0
   MeasuredMotion measured_motion;
 
-  // Demands finite values, unit quaternions (kUnitQuaternionTolerance), horizons that rise from 0,
-  // since_measurement >= 0, a measured speed >= 0, and at least one prediction while tracking or
-  // coasting. Whether the covariance is positive definite is not checked. Throws
-  // std::invalid_argument naming the member, its value and the bound.
+  // Demands a usable stamp and values within the bounds of bounds.hpp, unit quaternions
+  // (kUnitQuaternionTolerance), horizons that rise from 0, since_measurement >= 0, and at least one
+  // prediction while tracking or coasting. Whether the covariance is positive definite is not
+  // checked. Throws std::invalid_argument naming the member, its value and the bound.
   void validate() const;
 };
 

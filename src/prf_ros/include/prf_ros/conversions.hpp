@@ -12,9 +12,11 @@
 #include <ros/duration.h>
 #include <ros/time.h>
 
+#include <optional>
 #include <prf_core/forecast.hpp>
 #include <prf_core/se3.hpp>
 #include <prf_core/time.hpp>
+#include <string>
 
 namespace prf_ros {
 
@@ -27,8 +29,14 @@ namespace prf_ros {
 // other is left as it is; prf_core::require_pose(), which each validate() calls, refuses it.
 [[nodiscard]] prf_core::Pose to_core(const geometry_msgs::Pose& pose);
 
-// Throws std::runtime_error for a stamp that ros::Time cannot hold: below 0 or beyond the year
-// 2106.
+// For stamps of foreign messages, once, where they become values: a stamp beyond the bounds of
+// prf_core/bounds.hpp is refused, the second time with std::invalid_argument that names it. With
+// the stamps that pass, an hour added or taken away can be used without a check.
+[[nodiscard]] std::optional<prf_core::Stamp> usable_stamp(const ros::Time& stamp);
+[[nodiscard]] prf_core::Stamp checked_stamp(const std::string& name, const ros::Time& stamp);
+
+// Never throw: what ROS cannot hold (a stamp below 0 or beyond the year 2106, a duration beyond 68
+// years) becomes the nearest value that it can.
 [[nodiscard]] ros::Time to_ros_time(prf_core::Stamp stamp);
 [[nodiscard]] ros::Duration to_ros_duration(prf_core::Duration duration);
 [[nodiscard]] geometry_msgs::Point to_point(const Eigen::Vector3d& vector);

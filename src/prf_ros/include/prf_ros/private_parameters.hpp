@@ -53,7 +53,8 @@ class PrivateParameters {
 
 // Runs a node's main function and returns the exit code of the node, 0 when the function returns.
 // A std::invalid_argument that it throws becomes one ROS_FATAL line and exit code 2, the code of a
-// command that is called wrongly. Other exceptions pass through.
+// command that is called wrongly. Any other exception becomes one ROS_FATAL line that names it and
+// exit code 3.
 [[nodiscard]] int run(const std::function<void()>& node_main);
 
 }  // namespace prf_ros
