@@ -5,16 +5,20 @@
 // Stands in for `rosbag record`, whose queue of 100 messages a topic overflows when a trial runs
 // faster than the machine can write, and which says nothing about it. Until it is closed the bag is
 // called BAG.active. SIGINT closes it; exit code 1 means that it could not be written.
+//
+// A full disk and a folder that vanishes end it at once, with one line that says which. The bag is
+// then no bag: what there is of it stays under the name BAG.active, and BAG does not appear.
 #include <ros/ros.h>
 #include <rosbag/bag.h>
 #include <topic_tools/shape_shifter.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,11 +27,14 @@ namespace {
 using Event = ros::MessageEvent<topic_tools::ShapeShifter const>;
 
 constexpr std::uint32_t kUnlimited = 0;
+constexpr double kCheckPeriod = 0.5;              // s, wall time
+constexpr std::uintmax_t kReserve = 64ULL << 20;  // bytes: less is a full disk, before it is one
 
 class Recorder {
  public:
   Recorder(const std::string& bag, const std::vector<std::string>& topics)
       : file_(bag), active_(bag + ".active"), bag_(active_, rosbag::bagmode::Write) {
+    require_space();
     bag_.setCompression(rosbag::compression::LZ4);
     for (const std::string& topic : topics) {
       ros::SubscribeOptions options;
@@ -36,11 +43,14 @@ class Recorder {
       options.transport_hints.tcpNoDelay();
       subscribers_.push_back(node_.subscribe(options));
     }
+    timer_ = node_.createWallTimer(ros::WallDuration(kCheckPeriod),
+                                   [this](const ros::WallTimerEvent&) { check(); });
   }
 
   void close() {
     subscribers_.clear();
     bag_.close();
+    check();
     std::filesystem::rename(active_, file_);
   }
 
@@ -51,11 +61,28 @@ class Recorder {
                event.getConnectionHeaderPtr());
   }
 
+  // rosbag writes through a buffer: it may learn late, or only when closing, that nothing arrives.
+  void check() const {
+    if (!std::filesystem::exists(active_)) {
+      throw std::runtime_error("the file or its folder has vanished");
+    }
+    require_space();
+  }
+
+  void require_space() const {
+    const auto folder = std::filesystem::absolute(active_).parent_path();
+    const std::uintmax_t left = std::filesystem::space(folder).available;
+    if (left >= kReserve) return;
+    throw std::runtime_error("the disk is full: " + std::to_string(left >> 20) +
+                             " MiB left, at least " + std::to_string(kReserve >> 20) + " needed");
+  }
+
   ros::NodeHandle node_;
   std::string file_;
   std::string active_;
   rosbag::Bag bag_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace
@@ -67,16 +94,20 @@ int main(int argc, char** argv) {
     ROS_FATAL("usage: recorder BAG TOPIC [TOPIC ...]");
     return 2;
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report
+  ros::start();                   // before the handle of the recorder, so that the log outlives it
+  std::string reason;
   std::unique_ptr<Recorder> recorder;
   try {
-    recorder =
-        std::make_unique<Recorder>(words.front(), std::vector(words.begin() + 1, words.end()));
+    recorder = std::make_unique<Recorder>(words.front(),
+                                          std::vector<std::string>(words.begin() + 1, words.end()));
     ros::spin();
     recorder->close();
+    return 0;
   } catch (const std::exception& error) {
-    ROS_FATAL("%s cannot be written: %s", words.front().c_str(), error.what());
-    std::fflush(nullptr);
-    std::_Exit(1);  // the destructor of a bag that cannot be written throws
+    reason = error.what();
   }
-  return 0;
+  ROS_FATAL("%s cannot be written: %s", words.front().c_str(), reason.c_str());
+  ros::shutdown();
+  std::_Exit(1);  // a bag that cannot be written throws again when it is destroyed
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/bounds.hpp>
+#include <prf_core/quoted.hpp>
 #include <stdexcept>
 
 namespace prf_ros {
@@ -25,6 +27,9 @@ FrameTree::FrameTree(const std::string& urdf) {
     const LinkFrame frame{joint->parent_link_name, joint->child_link_name,
                           to_isometry(joint->parent_to_joint_origin_transform)};
     const Eigen::Vector3d axis(joint->axis.x, joint->axis.y, joint->axis.z);
+    const std::string label = "robot_description: joint " + prf_core::quoted(name);
+    prf_core::require_within(label + " origin", frame.child_in_parent.matrix(),
+                             prf_core::kMaxPosition, "m");
     switch (joint->type) {
       case urdf::Joint::FIXED:
         fixed_.push_back(frame);
@@ -32,13 +37,20 @@ FrameTree::FrameTree(const std::string& urdf) {
       case urdf::Joint::REVOLUTE:
       case urdf::Joint::CONTINUOUS:
       case urdf::Joint::PRISMATIC:
+        prf_core::require_between(label + " length of the axis", axis.norm(), 1e-6, 1e6);
         joints_.insert({name, {frame, axis.normalized(), joint->type == urdf::Joint::PRISMATIC}});
         break;
       default:
-        throw std::invalid_argument("robot_description: joint " + name +
-                                    " must be fixed, revolute, continuous or prismatic");
+        throw std::invalid_argument(label + " must be fixed, revolute, continuous or prismatic");
     }
   }
+}
+
+std::vector<std::string> FrameTree::moving_joints() const {
+  std::vector<std::string> names;
+  for (const auto& [name, joint] : joints_) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::vector<LinkFrame> FrameTree::moving(const std::vector<std::string>& names,

@@ -41,7 +41,8 @@ std::string InputHealth::receive(const std::string& publisher, std::optional<dou
   last_received_ = now;
   accepted_before_ = last_accepted_;
   last_accepted_ = now;
-  if (stamp) note_stamp(*stamp);
+  if (pending_stamp_) note_stamp(*pending_stamp_);
+  pending_stamp_ = stamp;
   return expected_.many_publishers ? "" : note_publisher(publisher, now);
 }
 
@@ -79,6 +80,7 @@ void InputHealth::note_stamp(double stamp) {
 
 std::string InputHealth::drop(const std::string& reason, double now) {
   last_accepted_ = accepted_before_;
+  pending_stamp_.reset();
   const bool known = drops_.count(reason) > 0 || drops_.size() < kMaxNames;
   const std::string kind = known ? reason : "other reasons";
   last_drop_ = reason;
@@ -111,19 +113,22 @@ InputHealth::Report InputHealth::report(double now) const {
                 "; expected is " + expectation(),
             true};
   }
-  if (second_seen_ > now - kShown) return {Level::kWarn, second_, false};
+  Report report;
+  const auto warn = [&report](const std::string& text, bool to_log) {
+    report.level = Level::kWarn;
+    report.text += (report.text.empty() ? "" : "; ") + text;
+    report.to_log = report.to_log || to_log;
+  };
   if (rate_ && *rate_ < 0.5 * expected_.rate) {
-    return {Level::kWarn,
-            expected_.topic + " comes at " + number(*rate_) + " Hz by its stamps, expected is " +
-                expectation(),
-            true};
+    warn(expected_.topic + " comes at " + number(*rate_) + " Hz by its stamps, expected is " +
+             expectation(),
+         true);
   }
+  if (second_seen_ > now - kShown) warn(second_, false);
   for (const auto& [reason, drops] : drops_) {
-    if (drops.last > now - kShown) {
-      return {Level::kWarn, expected_.topic + " dropped: " + reason, false};
-    }
+    if (drops.last > now - kShown) warn(expected_.topic + " dropped: " + reason, false);
   }
-  return {};
+  return report;
 }
 
 std::map<std::string, std::uint64_t> InputHealth::drops() const {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace prf_ros {
 namespace {
@@ -48,6 +50,22 @@ TEST(FrameTree, LeavesOutWhatIsUnknownNotFiniteOrWithoutPosition) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(tree.moving({"k", "j"}, {0.1, nan}).empty());
   EXPECT_EQ(tree.moving({"j", "j"}, {0.1}).size(), 1u);
+}
+
+TEST(FrameTree, KnowsItsMovingJoints) {
+  EXPECT_EQ(FrameTree(slide("prismatic")).moving_joints(), std::vector<std::string>{"j"});
+  EXPECT_TRUE(FrameTree(slide("revolute")).is_moving_joint("j"));
+  EXPECT_FALSE(FrameTree(slide("fixed")).is_moving_joint("j"));
+}
+
+// Fault 43: absurd numbers in robot_description -> refused at the start, with the joint's name
+TEST(FrameTree, RefusesNumbersBeyondPhysicalBounds) {
+  for (const auto& [good, bad] : std::vector<std::pair<std::string, std::string>>{
+           {"xyz=\"0 0 1\"", "xyz=\"0 0 1e300\""}, {"xyz=\"2 0 0\"", "xyz=\"0 0 0\""}}) {
+    std::string text = slide("revolute");
+    text.replace(text.find(good), good.size(), bad);
+    EXPECT_THROW(FrameTree{text}, std::invalid_argument) << bad;
+  }
 }
 
 TEST(FrameTree, RefusesWhatIsNoRobotOrHasAnotherKindOfJoint) {

@@ -4,6 +4,7 @@
 import os
 import random
 import resource
+import shutil
 import signal
 import string
 import subprocess
@@ -29,16 +30,22 @@ class Recorder(unittest.TestCase):
         cls.publisher = rospy.Publisher("numbers", String, queue_size=2 * COUNT)
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
+        folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.addCleanup(folder.cleanup)
         self.bag = os.path.join(folder.name, "numbers.bag")
 
-    def start(self, *arguments):
-        process = subprocess.Popen([RECORDER, *arguments, "__name:=recorder_under_test"],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.addCleanup(process.wait)
+    def start(self, *arguments, before=()):
+        process = subprocess.Popen([*before, RECORDER, *arguments, "__name:=recorder_under_test"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
         return process
+
+    def check_failure(self, recorder, reason):
+        said = recorder.communicate(timeout=20.0)[1]
+        self.assertEqual(recorder.returncode, 1, said)
+        self.assertRegex(said, "cannot be written: " + reason)
+        self.assertFalse(os.path.exists(self.bag))
 
     def wait_until(self, condition, what):
         end = time.monotonic() + 20.0
@@ -70,19 +77,30 @@ class Recorder(unittest.TestCase):
 
     # Fault 35, 49, A8: the disk is full while the bag is written -> the recorder says so and ends with code 1
     def test_ends_with_its_exit_code_when_the_disk_is_full(self):
-        recorder = subprocess.Popen(
-            [RECORDER, self.bag, "/numbers", "__name:=recorder_under_test"], text=True,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
-        self.addCleanup(recorder.kill)
+        recorder = self.start(self.bag, "/numbers")
         self.wait_until(lambda: self.publisher.get_num_connections() == 1, "no subscriber")
         resource.prlimit(recorder.pid, resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))
         filling = "".join(random.Random(1).choices(string.printable, k=SIZE))
         for number in range(COUNT):
             self.publisher.publish(f"{number} {filling}")
-        self.assertIn("cannot be written", recorder.communicate(timeout=20.0)[1])
-        self.assertEqual(recorder.returncode, 1)
-        self.assertFalse(os.path.exists(self.bag))
+        self.check_failure(recorder, "")
+
+    # Fault 35: little is left of the disk -> it ends before the disk is full and says what is left
+    def test_ends_when_the_disk_is_nearly_full(self):
+        folder = os.path.dirname(self.bag)
+        small = ("unshare", "--map-root-user", "--mount", "sh", "-c",
+                 f'mount -t tmpfs -o size=8m none {folder} && exec "$@"', "sh")
+        if subprocess.run([*small, "true"], stderr=subprocess.DEVNULL, check=False).returncode:
+            self.skipTest("no file system may be mounted here")
+        self.check_failure(self.start(self.bag, "/numbers", before=small),
+                           r"the disk is full: \d MiB left, at least 64 needed")
+
+    # Fault 49: the folder of the bag vanishes -> the recorder says so and ends with code 1
+    def test_ends_when_its_folder_vanishes(self):
+        recorder = self.start(self.bag, "/numbers")
+        self.wait_until(lambda: os.path.exists(self.bag + ".active"), "no bag is open")
+        shutil.rmtree(os.path.dirname(self.bag))
+        self.check_failure(recorder, "the file or its folder has vanished")
 
     def test_needs_a_bag_and_a_topic(self):
         self.assertEqual(self.start(self.bag).wait(20.0), 2)

@@ -17,12 +17,17 @@ struct LinkFrame {
 
 class FrameTree {
  public:
-  // Throws std::invalid_argument if the text is no URDF or has a joint other than fixed, revolute,
-  // continuous and prismatic.
+  // Throws std::invalid_argument if the text is no URDF, has a joint other than fixed, revolute,
+  // continuous and prismatic, or numbers beyond the bounds of prf_core/bounds.hpp.
   explicit FrameTree(const std::string& urdf);
 
   // Links behind fixed joints, in alphabetical order of the joints.
   [[nodiscard]] const std::vector<LinkFrame>& fixed() const { return fixed_; }
+
+  [[nodiscard]] bool is_moving_joint(const std::string& name) const {
+    return joints_.count(name) > 0;
+  }
+  [[nodiscard]] std::vector<std::string> moving_joints() const;  // in alphabetical order
 
   // Links behind the joints `names` at `positions` (rad or m), in that order. A name that is no
   // moving joint of the model, a position that is not finite, and an entry that only one of the two

@@ -54,8 +54,9 @@ class InputHealth {
 
   [[nodiscard]] const InputExpectation& expected() const { return expected_; }
   [[nodiscard]] std::uint64_t received() const { return received_; }
-  [[nodiscard]] std::optional<double> rate() const { return rate_; }  // Hz, by the stamps
-  [[nodiscard]] std::map<std::string, std::uint64_t> drops() const;   // by reason
+  // Hz, by the stamps of what was not dropped; none: not known yet.
+  [[nodiscard]] std::optional<double> rate() const { return rate_; }
+  [[nodiscard]] std::map<std::string, std::uint64_t> drops() const;  // by reason
 
  private:
   struct Drops {
@@ -79,6 +80,7 @@ class InputHealth {
   std::string second_;                   // what to say of two publishers
   double second_seen_;
   double second_logged_;
+  std::optional<double> pending_stamp_;  // of the last message, which may still be dropped
   std::optional<double> last_stamp_;
   std::vector<double> intervals_;  // s, between stamps, since the rate was found
   std::optional<double> rate_;
