@@ -173,5 +173,6 @@ def usage() -> str:
         amount = (f"{kind.low:g}..{kind.high:g} {kind.unit} [{kind.amount:g}]" if kind.unit else "")
         lines.append(f"  {name + target:<16} {kind.meaning}" + (f"; {amount}" if amount else ""))
     return "\n".join([
-        "faults: fault:=NAME[/TARGET][:AMOUNT][@TIME[-END]][,...], times in s of the trial's data",
+        "faults: fault:=NAME[/TARGET][:AMOUNT][@TIME[-END]][,...], times in s of the trial's data;",
+        "in a sweep commas part values, and + the faults of one value",
         *lines, "  TOPIC: " + ", ".join(TOPICS), "  NODE: " + ", ".join(NODES)])

@@ -13,13 +13,16 @@ def rewired(links: set[Link], faults: Sequence[Fault]) -> set[Link]:
     """The links of a trial with its faults: readers of a faulty topic hear the injector."""
     relayed = {"/" + topic for topic in catalogue.relayed(faults)}
     leaping = any(fault.name == "clock" for fault in faults)
-    found: set[Link] = set()
+    doubled = {"/" + fault.topic for fault in faults if fault.name == "second"}
+    ours = [INJECTOR] + ([SECOND] if doubled else [])
+    found: set[Link] = {("/joint_states", SIMULATOR, node) for node in ours}
     for topic, publisher, subscriber in links:
         to_simulator = subscriber == SIMULATOR
         if subscriber == "/recorder":
             found.add((topic, publisher, subscriber))
         elif topic in relayed and (not to_simulator or topic == "/joint_command"):
-            found |= {(topic, publisher, INJECTOR), ("/faulty" + topic, INJECTOR, subscriber)}
+            for node in ours if topic in doubled else [INJECTOR]:
+                found |= {(topic, publisher, node), ("/faulty" + topic, node, subscriber)}
         elif leaping and topic not in ("/tf", "/tf_static"):
             found.add(("/leapt" + topic, publisher, INJECTOR))
             found.add((topic, INJECTOR, subscriber) if to_simulator

@@ -180,8 +180,10 @@ class Recorder:
 
     def check(self) -> None:
         if self._process.poll() is not None:
+            # On a full disk its log cannot be written either.
+            why = "the bag cannot be written: " if self._process.returncode == 1 else ""
             raise ProcessError(f"the recorder ended with exit code {self._process.returncode}: "
-                               + self._last_line())
+                               + why + self._last_line())
         if shutil.disk_usage(os.path.dirname(self.bag)).free < self.MIN_FREE:
             raise ProcessError(f"disk full: less than {self.MIN_FREE >> 20} MiB are free for "
                                + self.bag)

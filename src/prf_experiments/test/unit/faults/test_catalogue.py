@@ -81,6 +81,14 @@ class Wiring(unittest.TestCase):
             self.assertIn(link, found)
         self.assertNotIn(("/joint_states", "/platform_sim", "/decision"), found)
 
+    def test_a_second_publisher_and_the_ticks_are_waited_for(self):
+        found = wiring.rewired(connections.trial_links("platform_sim"),
+                               catalogue.parse("second/target/forecast"))
+        for link in (("/joint_states", "/platform_sim", "/fault_injector"),
+                     ("/target/forecast", "/target_predictor", "/second_publisher"),
+                     ("/faulty/target/forecast", "/second_publisher", "/decision")):
+            self.assertIn(link, found)
+
 
 if __name__ == "__main__":
     unittest.main()
