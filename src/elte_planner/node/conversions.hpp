@@ -6,6 +6,7 @@
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
 
+#include <prf_core/quoted.hpp>
 #include <prf_core/require.hpp>
 #include <prf_ros/conversions.hpp>
 #include <stdexcept>
@@ -17,8 +18,8 @@
 namespace elte_planner {
 
 inline void require_frame(const std::string& frame_id, const std::string& planning_frame) {
-  prf_core::require(frame_id == planning_frame, "frame_id", frame_id.substr(0, 200),
-                    "'" + planning_frame + "'");
+  prf_core::require(frame_id == planning_frame, "frame_id", prf_core::quoted(frame_id),
+                    prf_core::quoted(planning_frame));
 }
 
 // The forecast and, when it is refused, the reason; then the target counts as lost. Throws
@@ -29,15 +30,16 @@ inline std::pair<prf_core::TargetForecast, std::string> forecast_from(
     return {prf_ros::to_core(message), ""};
   } catch (const std::invalid_argument& refusal) {
     prf_core::TargetForecast lost;
-    lost.stamp = prf_ros::to_core(message.header.stamp);
+    lost.stamp = prf_ros::checked_stamp("stamp", message.header.stamp);
     lost.status = prf_core::TargetStatus::kLost;
     return {lost, refusal.what()};
   }
 }
 
+// Throws std::invalid_argument for stamps that cannot be used.
 inline Progress progress_from(const prf_msgs::ExecutionProgress& message) {
-  return {prf_ros::to_core(message.header.stamp),
-          prf_ros::to_core(message.forecast_stamp),
+  return {prf_ros::checked_stamp("stamp", message.header.stamp),
+          prf_ros::checked_stamp("forecast_stamp", message.forecast_stamp),
           static_cast<Eigen::Index>(message.frozen),
           prf_ros::to_core(message.time_to_go),
           {message.demonstration, message.demonstration_switch}};

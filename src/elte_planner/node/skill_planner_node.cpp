@@ -4,7 +4,6 @@
 #include <prf_msgs/topics.h>
 
 #include <algorithm>
-#include <prf_core/require.hpp>
 #include <stdexcept>
 
 #include "conversions.hpp"
@@ -14,14 +13,14 @@ namespace {
 
 namespace topics = prf_msgs::topics;
 
-// Throws for a message that its stream does not take; the stamp before it tells little.
-void require_in_order(prf_core::StampOrder order, const ros::Time& stamp) {
+// Throws for a message that its stream does not take.
+void require_in_order(prf_core::StampOrder order) {
   using prf_core::StampOrder;
-  const char* const must = order == StampOrder::kOld         ? "newer than the ones before"
-                           : order == StampOrder::kDuplicate ? "a new one: it came twice"
-                                                             : "at most 1 s after the one before";
-  const bool good = prf_core::is_accepted(order);
-  prf_core::require(good, "stamp", std::to_string(stamp.toSec()) + " s", must);
+  if (prf_core::is_accepted(order)) return;
+  throw std::invalid_argument(
+      order == StampOrder::kOld         ? "its stamp is older than that of a message before"
+      : order == StampOrder::kDuplicate ? "it came twice"
+                                        : "its stamp is more than 1 s ahead");
 }
 
 }  // namespace
@@ -29,11 +28,15 @@ void require_in_order(prf_core::StampOrder order, const ros::Time& stamp) {
 SkillPlannerNode::SkillPlannerNode(const SkillPlannerParams& params)
     : params_(params), skill_(params.session, params.files) {
   warn_of_lost_shape();
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  forecast_ =
-      node_.subscribe(topics::kTargetForecast, 100, &SkillPlannerNode::on_forecast, this, hints);
-  progress_ = node_.subscribe(topics::kExecutionProgress, 1000, &SkillPlannerNode::on_progress,
-                              this, hints);
+  inputs_.subscribe<prf_msgs::TargetForecast>(
+      {topics::kTargetForecast,
+       "prf_msgs/TargetForecast in " + params.files.frame + " from target_predictor"},
+      100, [this](const prf_msgs::TargetForecast::ConstPtr& message) { on_forecast(*message); });
+  inputs_.subscribe<prf_msgs::ExecutionProgress>(
+      {topics::kExecutionProgress,
+       "prf_msgs/ExecutionProgress in " + params.files.frame + " from decision", 100.0},
+      1000,
+      [this](const prf_msgs::ExecutionProgress::ConstPtr& message) { on_progress(*message); });
   // Advertised last: whoever sees this publisher may send, both topics are subscribed.
   trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>(topics::kSkillTrajectory, 100);
   updater_.setHardwareID("none");
@@ -50,9 +53,7 @@ void SkillPlannerNode::on_forecast(const prf_msgs::TargetForecast& message) {
   try {
     take(message);
   } catch (const std::invalid_argument& refusal) {
-    ++dropped_forecasts_;
-    ROS_WARN_THROTTLE(1.0, "%s dropped (%zu so far): %s", topics::kTargetForecast,
-                      dropped_forecasts_, refusal.what());
+    inputs_.drop(topics::kTargetForecast, refusal.what());
   }
   plan_decided_requests();
 }
@@ -61,9 +62,7 @@ void SkillPlannerNode::on_progress(const prf_msgs::ExecutionProgress& message) {
   try {
     take(message);
   } catch (const std::invalid_argument& refusal) {
-    ++dropped_progress_;
-    ROS_WARN_THROTTLE(1.0, "%s dropped (%zu so far): %s", topics::kExecutionProgress,
-                      dropped_progress_, refusal.what());
+    inputs_.drop(topics::kExecutionProgress, refusal.what());
   }
   plan_decided_requests();
 }
@@ -73,14 +72,14 @@ void SkillPlannerNode::take(const prf_msgs::TargetForecast& message) {
   const auto [forecast, refusal] = forecast_from(message);
   if (!refusal.empty()) ROS_WARN_THROTTLE(1.0, "forecast taken as lost: %s", refusal.c_str());
   refused_ += refusal.empty() ? 0 : 1;
-  require_in_order(queue_.add(forecast), message.header.stamp);
+  require_in_order(queue_.add(forecast));
 }
 
 void SkillPlannerNode::take(const prf_msgs::ExecutionProgress& message) {
   require_frame(message.header.frame_id, params_.files.frame);
   const Progress progress = progress_from(message);
   progress.validate(params_.session.nodes);
-  require_in_order(queue_.add(progress), message.header.stamp);
+  require_in_order(queue_.add(progress));
 }
 
 void SkillPlannerNode::plan_decided_requests() {
@@ -133,25 +132,23 @@ void SkillPlannerNode::note_solve_time(std::chrono::duration<double> time) {
 
 void SkillPlannerNode::diagnose(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::size_t drops = dropped_progress_ + dropped_forecasts_ + refused_;
   status.summary(DiagnosticStatus::OK, requests_ == 0 ? "nothing was asked yet" : "planning");
   if (requests_ > 0 && status_ != SkillStatus::kSolved) {
     status.summary(DiagnosticStatus::WARN, message_);
   } else if (is_late()) {
     status.summary(DiagnosticStatus::WARN, "the last solve was late; its plan was sent");
-  } else if (drops > drops_reported_) {
-    status.summary(DiagnosticStatus::WARN, "messages were dropped or refused");
+  } else if (refused_ > refusals_reported_) {
+    status.summary(DiagnosticStatus::WARN, "forecasts were refused: taken as lost");
   }
-  drops_reported_ = drops;
+  refusals_reported_ = refused_;
   status.add("plans sent", requests_);
   status.add("kept plans", kept_);
   status.add("late solves", late_);
-  status.add("progress dropped", dropped_progress_);
-  status.add("forecasts dropped", dropped_forecasts_);
   status.add("forecasts refused", refused_);
   status.add("requests waiting for their forecast", queue_.waiting());
   status.add("last solve time, us", 1e6 * solve_time_.count());
   status.add("longest solve time, us", 1e6 * longest_solve_.count());
+  inputs_.report(status);
 }
 
 }  // namespace elte_planner

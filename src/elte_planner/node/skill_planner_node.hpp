@@ -9,6 +9,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
+#include <prf_ros/input_monitor.hpp>
 #include <string>
 
 #include "elte_planner/current_skill.hpp"
@@ -41,16 +42,15 @@ class SkillPlannerNode {
   RequestQueue queue_;
 
   std::size_t requests_ = 0, kept_ = 0, late_ = 0, refused_ = 0;
-  std::size_t dropped_progress_ = 0, dropped_forecasts_ = 0;
-  std::size_t drops_reported_ = 0;  // by the last diagnostics
+  std::size_t refusals_reported_ = 0;  // of forecasts, by the last diagnostics
   SkillStatus status_ = SkillStatus::kNoPlan;
   std::string message_;  // of the last plan
   std::chrono::duration<double> solve_time_{0.0}, longest_solve_{0.0};
 
   ros::NodeHandle node_;
   ros::Publisher trajectory_;
-  ros::Subscriber forecast_, progress_;
   diagnostic_updater::Updater updater_;
+  prf_ros::InputMonitor inputs_{node_, &updater_};
 };
 
 }  // namespace elte_planner
