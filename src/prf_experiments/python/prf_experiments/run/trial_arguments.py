@@ -52,6 +52,12 @@ LAUNCHED = {
                          meaning="cart: the box is on a cart that a hand pushes aside"),
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),
+    "method": Argument("default", **choice("default", "paper"),
+                       meaning="paper: as printed; sets predictor:=paper approach:=false where they "
+                       "are not given"),
+    "approach": Argument(True, **boolean(),
+                         meaning="false: the target binds the skill at its end point alone, not on "
+                         "the approach"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
     "predictor": Argument("periodic", **choice(*names.predictor_names()),
@@ -75,8 +81,23 @@ TRIAL = {
 }
 
 
+# The parts of method:=paper. The HMM is of the paper's kind in either method: three states that see
+# the velocity of the target.
+PAPER = {"predictor": "paper", "approach": False}
+
+
+def of_method(values: dict) -> dict:
+    """`values` with the parts of the method in place of the defaults."""
+    if values["method"] != "paper":
+        return values
+    return {**values, **{key: part for key, part in PAPER.items()
+                         if values[key] == LAUNCHED[key].default}}
+
+
 def complete(values: dict, words: Sequence[str]) -> dict:
-    """The floor under the cart does not move: `values` with motion none unless `words` say it."""
+    """`values` with the parts of the method; the floor under the cart does not move: with motion none
+    unless `words` say it."""
+    values = of_method(values)
     if values["scenario"] != "cart":
         return values
     asked = [word for word in words if word.startswith("motion:=")]

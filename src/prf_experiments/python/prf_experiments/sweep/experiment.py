@@ -16,7 +16,7 @@ EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
 STUDIES = {
     "table": "verdicts over motion, gait and framework on or off, as the paper's table of trials",
     "compare": "distances of ELTE, DMP, LTE and elastic maps, stepping, paired by seed",
-    "ablate": "predictor, decision and planner under heavy motion, stepping",
+    "ablate": "predictor, decision, planner and approach under heavy motion, stepping",
     "cart": "the box is pushed aside during the execution",
     "faults": "every fault injected, standing and stepping: verdict, time to hold and to recover",
     "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",

@@ -47,7 +47,11 @@ def trials(study: Study, options: argparse.Namespace) -> list[dict]:
             axes[name] = chosen
         else:
             fixed[name] = chosen[0]
-    return sweep.product(fixed, axes)
+    found: list[dict] = []
+    for trial_values in map(trial_arguments.of_method, sweep.product(fixed, axes)):
+        if trial_values not in found:  # method:=paper may make two of them the same
+            found.append(trial_values)
+    return found
 
 
 def link(arguments: dict, folder: str = ".") -> str:

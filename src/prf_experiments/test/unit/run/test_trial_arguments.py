@@ -65,6 +65,16 @@ class TrialArguments(unittest.TestCase):
         with self.assertRaises(args.ArgumentError):
             self.complete("scenario:=cart", "motion:=light")
 
+    def test_method_paper_sets_every_part_that_is_not_given(self):
+        paper = self.complete("method:=paper", "motion:=heavy")
+        self.assertEqual((paper["predictor"], paper["approach"]), ("paper", False))
+        self.assertTrue({"method:=paper", "predictor:=paper", "approach:=false"}
+                        <= set(trial_arguments.words(paper)))
+        again = trial_arguments.words(paper)
+        self.assertEqual(self.complete(*again), paper)
+        self.assertEqual(self.complete("method:=paper", "predictor:=ukf")["predictor"], "ukf")
+        self.assertEqual(self.complete()["predictor"], "periodic")
+
     def test_lists_are_parsed_value_by_value(self):
         self.assertEqual(args.parse_lists(["seed:=3,5", "framework:=false"], trial_arguments.TRIAL),
                          {"seed": [3, 5], "framework": [False]})
