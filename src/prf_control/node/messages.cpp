@@ -8,16 +8,44 @@ namespace prf_control {
 
 using prf_ros::to_core;
 
-std::optional<JointSample> to_sample(const sensor_msgs::JointState& message,
-                                     const std::vector<std::string>& joint_names) {
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 200;
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+    if (text.size() > kLongest) return "[" + text.substr(0, kLongest) + "...]";
+  }
+  return "[" + text + "]";
+}
+
+JointReading to_sample(const sensor_msgs::JointState& message,
+                       const std::vector<std::string>& joint_names) {
   JointVector position;
+  std::vector<std::string> missing;
   for (std::size_t i = 0; i < joint_names.size(); ++i) {
-    const auto found = std::find(message.name.begin(), message.name.end(), joint_names[i]);
+    const std::string& name = joint_names[i];
+    const auto found = std::find(message.name.begin(), message.name.end(), name);
+    if (found == message.name.end()) {
+      missing.push_back(name);
+      continue;
+    }
+    if (std::find(found + 1, message.name.end(), name) != message.name.end()) {
+      return {std::nullopt, "joint_states names " + name + " twice: ignored"};
+    }
     const auto index = static_cast<std::size_t>(found - message.name.begin());
-    if (index >= message.name.size() || index >= message.position.size()) return std::nullopt;
+    if (index >= message.position.size()) {
+      return {std::nullopt, "joint_states has " + std::to_string(message.name.size()) +
+                                " names and " + std::to_string(message.position.size()) +
+                                " positions: ignored"};
+    }
     position[static_cast<Eigen::Index>(i)] = message.position[index];
   }
-  return checked_joints(to_core(message.header.stamp), position, joint_names);
+  if (missing.size() == joint_names.size()) return {};
+  if (!missing.empty()) {
+    return {std::nullopt, "joint_states lacks " + listed(missing) + ", has " +
+                              listed(message.name) + ": ignored"};
+  }
+  return {checked_joints(to_core(message.header.stamp), position, joint_names), ""};
 }
 
 Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
@@ -42,16 +70,16 @@ Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
 }
 
 trajectory_msgs::JointTrajectory command_message(const ControlResult& result,
-                                                 const std::vector<std::string>& joint_names) {
+                                                 const NodeParams& params) {
   trajectory_msgs::JointTrajectory message;
   message.header.stamp = prf_ros::to_ros_time(result.stamp);
-  message.joint_names = joint_names;
+  message.joint_names = params.joint_names();
   message.points.resize(1);
   auto& point = message.points.front();
   const auto& [position, velocity] = result.command.value();
   point.positions.assign(position.data(), position.data() + position.size());
   point.velocities.assign(velocity.data(), velocity.data() + velocity.size());
-  point.time_from_start = ros::Duration(0, 10'000'000);  // one control tick
+  point.time_from_start = ros::Duration(params.tick_period);
   return message;
 }
 

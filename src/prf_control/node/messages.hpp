@@ -16,15 +16,24 @@
 
 namespace prf_control {
 
-// None when a joint of the arm is not in the message: other parts may publish joint_states too.
-[[nodiscard]] std::optional<JointSample> to_sample(const sensor_msgs::JointState& message,
-                                                   const std::vector<std::string>& joint_names);
+// A message that has no joint of the arm is no tick, but no error either: other parts of the robot
+// may publish joint_states, too. One that has only some, or one twice, is refused.
+struct JointReading {
+  std::optional<JointSample> sample;
+  std::string refusal;  // names what was expected and received
+};
+[[nodiscard]] JointReading to_sample(const sensor_msgs::JointState& message,
+                                     const std::vector<std::string>& joint_names);
+
+// "[a, b]", cut after 200 characters.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 [[nodiscard]] Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
                                    const NodeParams& params);
 
-[[nodiscard]] trajectory_msgs::JointTrajectory command_message(
-    const ControlResult& result, const std::vector<std::string>& joint_names);
+// Of a result that has a command.
+[[nodiscard]] trajectory_msgs::JointTrajectory command_message(const ControlResult& result,
+                                                               const NodeParams& params);
 
 [[nodiscard]] prf_msgs::ControlStatus status_message(const ControlResult& result);
 

@@ -8,6 +8,7 @@ namespace prf_control {
 
 void NodeParams::validate() const {
   controller.validate();
+  prf_core::require_between("tick_period", tick_period, 0.002, 0.02, "s");
   const auto require_name = [](const std::string& parameter, const std::string& name) {
     prf_core::require(!name.empty(), parameter, "''", "not empty");
   };
@@ -37,6 +38,7 @@ NodeParams load_params(const ros::NodeHandle& private_handle) {
   params.controller.max_tracking_error = values.number("max_tracking_error");
   params.controller.max_wait = values.number("max_wait");
   params.controller.joint_prefix = values.text("joint_prefix");
+  params.tick_period = values.number("tick_period");
   params.planning_frame = values.text("planning_frame");
   params.hand_frame = values.text("hand_frame");
   values.refuse_unknown();

@@ -13,6 +13,8 @@ namespace prf_control {
 
 struct NodeParams {
   ArmControllerParams controller;
+  double tick_period;          // [s], 0.002 to 0.02; time_from_start of each command, and the rate
+                               // at which joint_states is expected
   std::string planning_frame;  // header.frame_id that a set-point must have
   std::string hand_frame;      // the one name in its joint_names
 

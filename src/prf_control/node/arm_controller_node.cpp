@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arm_controller_node.hpp"
+
+#include <algorithm>
+#include <prf_ros/conversions.hpp>
+
+namespace prf_control {
+namespace {
+
+constexpr double kWarnPeriod = 1.0;      // [s]
+constexpr double kArmlessPeriod = 5.0;   // [s]
+constexpr std::uint64_t kArmless = 100;  // messages: other parts of the robot may publish, too
+constexpr std::uint32_t kQueue = 1000;   // messages, 10 s of ticks
+
+// What was lost between two counts; empty: nothing.
+std::string drop_between(const JoinerCounts& before, const JoinerCounts& after) {
+  if (after.duplicate_ticks > before.duplicate_ticks) return "a tick of this stamp has come before";
+  if (after.late_setpoints > before.late_setpoints) {
+    return "its tick is decided, or one of this stamp has come before";
+  }
+  return "";
+}
+
+bool is_outside(const ControlResult& result) {
+  return result.command && joints_outside(result.command->position).maxCoeff() > 1e-9;
+}
+
+}  // namespace
+
+ArmControllerNode::ArmControllerNode(ros::NodeHandle& node, const NodeParams& params)
+    : params_(params),
+      joint_names_(params.joint_names()),
+      controller_(params.controller),
+      reconfigurable_(ros::NodeHandle("~"),
+                      {{"velocity_scale", params.controller.follower.velocity_scale,
+                        "share of the URDF's joint velocity limits"},
+                       {"acceleration", params.controller.follower.acceleration,
+                        "limit of every joint, rad/s^2"}},
+                      [this](const prf_ros::ReconfigurableParams::Values& values) {
+                        controller_.tune(values.at("velocity_scale"), values.at("acceleration"));
+                      }) {
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("control", this, &ArmControllerNode::diagnose);
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  joints_ = node.subscribe("joint_states", kQueue, &ArmControllerNode::on_joints, this, hints);
+  setpoint_ =
+      node.subscribe("execution/setpoint", kQueue, &ArmControllerNode::on_setpoint, this, hints);
+  // After subscribing: a node that sees this publisher may start, and nothing is missed.
+  status_ = node.advertise<prf_msgs::ControlStatus>("control/status", kQueue);
+  command_ = node.advertise<trajectory_msgs::JointTrajectory>("joint_command", kQueue);
+}
+
+void ArmControllerNode::on_joints(const sensor_msgs::JointState& message) {
+  const JointReading reading = to_sample(message, joint_names_);
+  if (!reading.sample) {
+    ignore(message, reading.refusal);
+    return;
+  }
+  armless_in_a_row_ = 0;
+  const auto begin = Clock::now();
+  const JoinerCounts before = controller_.joiner_counts();
+  publish(controller_.add_joints(*reading.sample), begin);
+  warn_of_drop("joint_states", reading.sample->stamp, before);
+}
+
+void ArmControllerNode::ignore(const sensor_msgs::JointState& message, const std::string& refusal) {
+  if (!refusal.empty()) {
+    ++incomplete_joint_states_;
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s", refusal.c_str());
+  } else if (++armless_in_a_row_ >= kArmless) {
+    ROS_WARN_THROTTLE(kArmlessPeriod,
+                      "joint_states: %llu messages in a row without a joint of the arm, expected "
+                      "%s, received %s",
+                      static_cast<unsigned long long>(armless_in_a_row_),
+                      listed(joint_names_).c_str(), listed(message.name).c_str());
+  }
+  diagnostics_.update();
+}
+
+void ArmControllerNode::on_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message) {
+  const auto begin = Clock::now();
+  const JoinerCounts before = controller_.joiner_counts();
+  const prf_core::Stamp stamp = prf_ros::to_core(message.header.stamp);
+  publish(controller_.add_setpoint(stamp, to_setpoint(message, params_)), begin);
+  warn_of_drop("execution/setpoint", stamp, before);
+}
+
+void ArmControllerNode::warn_of_drop(const char* topic, prf_core::Stamp stamp,
+                                     const JoinerCounts& before) {
+  const std::string reason = drop_between(before, controller_.joiner_counts());
+  if (reason.empty()) return;
+  ++drops_;
+  ROS_WARN_THROTTLE(kWarnPeriod, "%s stamped %.3f s dropped: %s; the last tick was %.3f s", topic,
+                    prf_core::to_seconds(stamp), reason.c_str(), prf_core::to_seconds(last_.stamp));
+}
+
+void ArmControllerNode::publish(const std::vector<ControlResult>& results,
+                                Clock::time_point begin) {
+  for (const ControlResult& result : results) {
+    if (result.command) command_.publish(command_message(result, params_));
+    status_.publish(status_message(result));
+    log(result);
+    last_ = result;
+  }
+  if (!results.empty()) {
+    const std::chrono::duration<double> spent = Clock::now() - begin;
+    longest_tick_ = std::max(longest_tick_, spent.count());
+  }
+  diagnostics_.update();
+}
+
+void ArmControllerNode::log(const ControlResult& result) {
+  if (result.reason.empty()) return;
+  const bool is_new = result.code != last_.code || result.restarted;
+  if (result.code == ControlCode::kFailing) {
+    ROS_ERROR_THROTTLE(kWarnPeriod, "%s", result.reason.c_str());
+  } else if (result.restarted && result.code == ControlCode::kHolding) {
+    ROS_WARN("%s", result.reason.c_str());
+  } else if (is_new || result.code > ControlCode::kLimited) {
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s", result.reason.c_str());
+  }
+}
+
+void ArmControllerNode::summarise(diagnostic_updater::DiagnosticStatusWrapper& out) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  const std::uint64_t lost = drops_ + incomplete_joint_states_;
+  if (controller_.counts().ticks == 0) {
+    out.summary(Level::ERROR,
+                "no control tick: no joint_states with all of " + listed(joint_names_));
+  } else if (last_.code == ControlCode::kFailing) {
+    out.summary(Level::ERROR, last_.reason);
+  } else if (last_.code > ControlCode::kLimited || is_outside(last_)) {
+    out.summary(Level::WARN, last_.reason);
+  } else if (lost > lost_before_) {
+    out.summary(Level::WARN,
+                std::to_string(lost - lost_before_) + " messages dropped or ignored of late");
+  } else {
+    out.summary(Level::OK, last_.reason.empty() ? "fine" : last_.reason);
+  }
+  lost_before_ = lost;
+}
+
+void ArmControllerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& out) {
+  summarise(out);
+  const ControllerCounts& counts = controller_.counts();
+  const JoinerCounts& joiner = controller_.joiner_counts();
+  out.add("ticks", counts.ticks);
+  out.add("ticks without set-point", joiner.missing_setpoints);
+  out.add("times that the set-points fell silent", joiner.silences);
+  out.add("set-points late or twice", joiner.late_setpoints);
+  out.add("set-points invalid", counts.invalid_setpoints);
+  out.add("joint_states incomplete", incomplete_joint_states_);
+  out.add("joint_states not usable", counts.faulty_joints);
+  out.add("commands refused by the gate", counts.refused_commands);
+  out.add("joint_states of a stamp seen before", joiner.duplicate_ticks);
+  out.add("jumps of a joint goal refused", counts.refused_jumps);
+  out.add("ticks of a branch change", counts.branch_changing);
+  out.add("starts from measured joints", counts.restarts);
+  out.add("new runs", joiner.new_runs);
+  out.add("longest computation of a tick [ms]", 1e3 * longest_tick_);
+}
+
+}  // namespace prf_control

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The node arm_controller: joint_states + execution/setpoint -> joint_command + control/status, one
+// of each per tick.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <chrono>
+#include <prf_ros/reconfigurable.hpp>
+#include <string>
+#include <vector>
+
+#include "messages.hpp"
+#include "params.hpp"
+
+namespace prf_control {
+
+class ArmControllerNode {
+ public:
+  ArmControllerNode(ros::NodeHandle& node, const NodeParams& params);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void on_joints(const sensor_msgs::JointState& message);
+  void on_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message);
+  void ignore(const sensor_msgs::JointState& message, const std::string& refusal);
+  void publish(const std::vector<ControlResult>& results, Clock::time_point begin);
+  void warn_of_drop(const char* topic, prf_core::Stamp stamp, const JoinerCounts& before);
+  void log(const ControlResult& result);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& out);
+  void summarise(diagnostic_updater::DiagnosticStatusWrapper& out);
+
+  NodeParams params_;
+  std::vector<std::string> joint_names_;
+  ArmController controller_;
+  prf_ros::ReconfigurableParams reconfigurable_;
+  ros::Publisher command_, status_;
+  ros::Subscriber joints_, setpoint_;
+  diagnostic_updater::Updater diagnostics_;
+  ControlResult last_;
+  std::uint64_t incomplete_joint_states_ = 0;
+  std::uint64_t armless_in_a_row_ = 0;  // messages
+  std::uint64_t drops_ = 0;
+  std::uint64_t lost_before_ = 0;  // when diagnostics were published last
+  double longest_tick_ = 0.0;      // [s]
+};
+
+}  // namespace prf_control
