@@ -15,8 +15,13 @@ constexpr std::uint32_t kQueue = 1000;   // messages, 10 s of ticks
 // What was lost between two counts; empty: nothing.
 std::string drop_between(const JoinerCounts& before, const JoinerCounts& after) {
   if (after.duplicate_ticks > before.duplicate_ticks) return "a tick of this stamp has come before";
+  if (after.old_ticks > before.old_ticks) return "older than the newest tick";
   if (after.late_setpoints > before.late_setpoints) {
     return "its tick is decided, or one of this stamp has come before";
+  }
+  if (after.far_ahead_ticks > before.far_ahead_ticks ||
+      after.far_ahead_setpoints > before.far_ahead_setpoints) {
+    return "far ahead of the newest tick";
   }
   return "";
 }
@@ -148,11 +153,15 @@ void ArmControllerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& ou
   out.add("ticks without set-point", joiner.missing_setpoints);
   out.add("times that the set-points fell silent", joiner.silences);
   out.add("set-points late or twice", joiner.late_setpoints);
+  out.add("set-points far ahead", joiner.far_ahead_setpoints);
   out.add("set-points invalid", counts.invalid_setpoints);
   out.add("joint_states incomplete", incomplete_joint_states_);
   out.add("joint_states not usable", counts.faulty_joints);
   out.add("commands refused by the gate", counts.refused_commands);
+  out.add("ticks with a joint reported in another turn", counts.other_turns);
   out.add("joint_states of a stamp seen before", joiner.duplicate_ticks);
+  out.add("joint_states old", joiner.old_ticks);
+  out.add("joint_states far ahead", joiner.far_ahead_ticks);
   out.add("jumps of a joint goal refused", counts.refused_jumps);
   out.add("ticks of a branch change", counts.branch_changing);
   out.add("starts from measured joints", counts.restarts);

@@ -89,10 +89,8 @@ ArmController::Tick ArmController::tick_of(const TickJoiner::Joined& joined) {
     if (tick.fault.empty()) tick.fault = "joint positions are not known";
     return tick;
   }
-  std::optional<JointVector> last_command;
-  if (follower_.started()) last_command = follower_.state().position;
   tick.reported = joined.primary.position;
-  tick.measured = unwrapped(*tick.reported, last_command);
+  tick.measured = unwrapped(*tick.reported);
   int joint = 0;
   if (joints_outside(*tick.measured).maxCoeff(&joint) > kFarOutside) {
     tick.fault = reasons().outside(*tick.measured, joint) + ": is not moved from there";
@@ -116,7 +114,10 @@ ControlResult ArmController::process(const TickJoiner::Joined& joined) {
   ControlResult result;
   result.stamp = joined.primary.stamp;
   std::optional<MotionState> last;
-  if (follower_.started()) last = follower_.state();
+  if (follower_.started()) {
+    if (tick.measured) follow_into_turn(*tick.measured);
+    last = follower_.state();
+  }
   const std::string reason = restart_reason(tick);
   if (!reason.empty()) {
     restart(tick, reason, result);
@@ -130,6 +131,13 @@ ControlResult ArmController::process(const TickJoiner::Joined& joined) {
   if (follower_.started()) pass_gate(tick, last, result);
   measure_error(tick, last, result);
   return result;
+}
+
+void ArmController::follow_into_turn(const JointVector& measured) {
+  const JointVector turns = turns_between(follower_.state().position, measured);
+  if (turns.isZero(0.0)) return;
+  ++counts_.other_turns;
+  follower_.move_by_turns(turns);
 }
 
 std::string ArmController::restart_reason(const Tick& tick) const {

@@ -10,18 +10,9 @@ namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
 
-// The angle equal to `angle` but for turns that is nearest to `place`. An angle less than half a
-// turn from it stays as it is, bit by bit.
+// The angle equal to `angle` but for turns that is nearest to `place`.
 double nearest_turn(double angle, double place) {
   return angle - kTurn * std::round((angle - place) / kTurn);
-}
-
-double unwrapped_limited(double angle, double lower, double upper,
-                         const std::optional<double>& command) {
-  if (angle >= lower && angle <= upper) return angle;
-  const double inside = nearest_turn(angle, 0.5 * (lower + upper));  // if any turn is
-  if (inside >= lower && inside <= upper) return inside;
-  return command ? nearest_turn(angle, *command) : inside;
 }
 
 }  // namespace
@@ -43,19 +34,25 @@ JointSample checked_joints(prf_core::Stamp stamp, const JointVector& position,
   return sample;
 }
 
-JointVector unwrapped(const JointVector& reported, const std::optional<JointVector>& last_command) {
+JointVector unwrapped(const JointVector& reported) {
   const auto& limits = jaco_kinematics::jaco_joint_limits();
   JointVector result = reported;
   for (int i = 0; i < result.size(); ++i) {
-    std::optional<double> command;
-    if (last_command) command = (*last_command)[i];
-    if (std::isfinite(limits.lower[i])) {
-      result[i] = unwrapped_limited(reported[i], limits.lower[i], limits.upper[i], command);
-    } else if (command) {
-      result[i] = nearest_turn(reported[i], *command);
-    }
+    const double q = reported[i];
+    const bool inside = q >= limits.lower[i] && q <= limits.upper[i];
+    if (!inside) result[i] = nearest_turn(q, 0.5 * (limits.lower[i] + limits.upper[i]));
   }
   return result;
+}
+
+JointVector turns_between(const JointVector& command, const JointVector& measured) {
+  const auto& limits = jaco_kinematics::jaco_joint_limits();
+  JointVector turns = JointVector::Zero();
+  for (int i = 0; i < turns.size(); ++i) {
+    const bool continuous = std::isinf(limits.upper[i]);
+    if (continuous) turns[i] = kTurn * std::round((measured[i] - command[i]) / kTurn);
+  }
+  return turns;
 }
 
 JointVector joints_outside(const JointVector& position) {

@@ -19,8 +19,11 @@ using ErrorVector = Eigen::Matrix<double, 6, 1>;
 constexpr int kMaxEvaluations = 300;
 // The cost is divided by (0.1 m)^2, so that it and its curvature are of order one.
 constexpr double kCostScale = 100.0;
+constexpr double kTurn = 2.0 * M_PI;
+constexpr double kFar = 100.0;  // [rad] for a joint in the search
 
 struct Problem {
+  JointVector start;
   Eigen::Isometry3d hand_in_base;
   ErrorVector weight;
   JointVector best;
@@ -39,10 +42,26 @@ double cost(const JointVector& q, const Problem& problem, JointVector* gradient)
   return 0.5 * kCostScale * error.squaredNorm();
 }
 
+// Continuous joints that are farther than `bound` from the start, in the turn nearest to it: the
+// search may try any angle, and the arm need not turn more than once.
+JointVector near_start(const JointVector& q, const JointVector& start, double bound) {
+  JointVector result = q;
+  for (int i = 0; i < q.size(); ++i) {
+    const bool continuous = std::isinf(jaco_kinematics::jaco_joint_limits().upper[i]);
+    const double way = q[i] - start[i];
+    if (continuous && !(std::abs(way) <= bound)) result[i] = start[i] + std::remainder(way, kTurn);
+  }
+  return result;
+}
+
 double objective(unsigned /*n*/, const double* x, double* gradient, void* data) {
   Problem& problem = *static_cast<Problem*>(data);
-  const JointVector q = Eigen::Map<const JointVector>(x);
-  JointVector slope;
+  const JointVector q = near_start(Eigen::Map<const JointVector>(x), problem.start, kFar);
+  JointVector slope = JointVector::Zero();
+  if (!q.allFinite()) {
+    if (gradient != nullptr) std::copy(slope.data(), slope.data() + slope.size(), gradient);
+    return HUGE_VAL;
+  }
   const double value = cost(q, problem, gradient == nullptr ? nullptr : &slope);
   if (gradient != nullptr) std::copy(slope.data(), slope.data() + slope.size(), gradient);
   if (value < problem.best_cost) {
@@ -74,6 +93,7 @@ JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVecto
   }
   const auto& limits = jaco_kinematics::jaco_joint_limits();
   Problem problem;
+  problem.start = start;
   problem.hand_in_base = hand_in_base;
   problem.weight << 1.0, 1.0, 1.0, orientation_weight, orientation_weight, orientation_weight;
   problem.best = start.cwiseMax(limits.lower).cwiseMin(limits.upper);
@@ -93,7 +113,7 @@ JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVecto
   } catch (const std::runtime_error&) {
     // SLSQP ends so at the limit of the arithmetic; the best position it has seen stands.
   }
-  return problem.best;
+  return near_start(problem.best, start, M_PI);
 }
 
 }  // namespace prf_control

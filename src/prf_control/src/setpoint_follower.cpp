@@ -99,6 +99,11 @@ void SetpointFollower::start(const MotionState& state) {
   state_ = state;
 }
 
+void SetpointFollower::move_by_turns(const JointVector& turns) {
+  state_.value().position += turns;
+  if (goal_) *goal_ += turns;
+}
+
 void SetpointFollower::reset() {
   state_.reset();
   forget_setpoints();

@@ -123,15 +123,22 @@ TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
   EXPECT_EQ(result.command->position, moved);
 }
 
-TEST(ArmController, TakesAContinuousJointInAnotherTurnAsTheSame) {
+// Fault 37: a driver begins another count of a continuous joint's turns -> the commands follow, the
+// joint does not turn
+TEST(ArmController, FollowsAContinuousJointIntoAnotherTurn) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
-  JointVector turned = home();
-  turned[0] += 2.0 * M_PI;
-  turned[6] -= 2.0 * M_PI;
-  const ControlResult result = ask(controller, joints_at(1, turned), hold_setpoint());
+  const MotionState before = *ask(controller, joints_at(1), beside_home(0.05)).command;
+  JointVector turns = JointVector::Zero();
+  turns[0] = 2.0 * M_PI;
+  turns[6] = -6.0 * M_PI;
+  const ControlResult result =
+      ask(controller, joints_at(2, before.position + turns), beside_home(0.05));
   EXPECT_FALSE(result.restarted);
-  EXPECT_EQ(result.command->position, home());
+  EXPECT_EQ(result.code, ControlCode::kFollowing) << result.reason;
+  EXPECT_EQ(controller.counts().other_turns, 1u);
+  const MotionState moved{before.position + turns, before.velocity};
+  expect_within_limits(moved, *result.command, kDt);
 }
 
 TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {

@@ -114,6 +114,20 @@ TEST(NearestPose, IsNeverWorseThanItsStartAndStaysWhenCalledAgain) {
   }
 }
 
+// Fault 24, 43: a set-point a kilometre away -> the nearest pose within half a turn of each joint,
+// not one many turns off
+TEST(NearestPose, StaysWithinHalfATurnHoweverFarThePoseIs) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    const JointVector start = random_posture(random);
+    Eigen::Isometry3d pose = forward(start);
+    pose.translation() = 900.0 * Eigen::Vector3d(place(random), place(random), place(random));
+    const JointVector q = nearest_pose(pose, start, kWeight);
+    for (const int i : {0, 2, 4, 6}) ASSERT_LE(std::abs(q[i] - start[i]), M_PI + 1e-9) << trial;
+  }
+}
+
 TEST(NearestPose, RefusesInputThatIsNotFinite) {
   const JointVector start = JointVector::Constant(M_PI);
   Eigen::Isometry3d bad = Eigen::Isometry3d::Identity();

@@ -62,6 +62,8 @@ struct ControlResult {
 struct ControllerCounts {
   std::uint64_t ticks = 0;
   std::uint64_t faulty_joints = 0;     // ticks whose joints could not be used
+  std::uint64_t other_turns = 0;       // ticks at which a continuous joint was reported in another
+                                       // turn than commanded; the command followed
   std::uint64_t refused_commands = 0;  // by the gate; 0 unless the controller has a defect
   std::uint64_t invalid_setpoints = 0;
   std::uint64_t refused_jumps = 0;    // ticks at which a change of branch was refused
@@ -91,6 +93,7 @@ class ArmController {
   std::vector<ControlResult> process_joined_ticks();
   ControlResult process(const TickJoiner::Joined& joined);
   Tick tick_of(const TickJoiner::Joined& joined);
+  void follow_into_turn(const JointVector& measured);
   std::string restart_reason(const Tick& tick) const;
   void restart(const Tick& tick, const std::string& reason, ControlResult& result);
   void follow_or_hold(const Tick& tick, ControlResult& result);

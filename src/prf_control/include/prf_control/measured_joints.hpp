@@ -3,11 +3,10 @@
 // commanded.
 //
 // A driver may report an angle in any turn: -1.0 rad is 5.283 rad. Joints 2, 4 and 6 are taken in
-// the turn that lies within their limits. Where no turn does, and for the continuous joints, it is
-// the turn nearest to the last command; before any command the nearest to the limits, and of the
-// continuous joints the reported one. So a command never differs from the measured joint by a turn
-// once it has begun there. A driver of the continuous joints has to take positions in the turn that
-// it reports, or modulo a turn.
+// the turn that lies within their limits, or nearest to them. The continuous joints count: they are
+// taken as reported, and the commands are in the turn that is reported. So a driver has to take
+// positions in the turn in which it reports them, or modulo a turn. One that begins another count
+// takes the commands with it, and the joint does not turn.
 #pragma once
 
 #include <jaco_kinematics/jaco_kinematics.hpp>
@@ -34,8 +33,11 @@ struct JointSample {
 [[nodiscard]] JointSample checked_joints(prf_core::Stamp stamp, const JointVector& position,
                                          const std::vector<std::string>& names);
 
-[[nodiscard]] JointVector unwrapped(const JointVector& reported,
-                                    const std::optional<JointVector>& last_command);
+[[nodiscard]] JointVector unwrapped(const JointVector& reported);
+
+// The whole turns by which the continuous joints of a command are to be moved [rad] so that it is
+// within half a turn of the measured joints. 0 for the others.
+[[nodiscard]] JointVector turns_between(const JointVector& command, const JointVector& measured);
 
 // How far each joint is outside its position limits, 0 inside [rad].
 [[nodiscard]] JointVector joints_outside(const JointVector& position);

@@ -81,6 +81,8 @@ class SetpointFollower {
   // At rest at `measured`, also outside the joint limits; forgets everything else.
   void start(const JointVector& measured);
   void start(const MotionState& state);
+  // The same motion with the joints this much farther, whole turns of continuous joints [rad].
+  void move_by_turns(const JointVector& turns);
   void reset();  // as constructed: not started
   [[nodiscard]] bool started() const { return state_.has_value(); }
   [[nodiscard]] const MotionState& state() const { return state_.value(); }
