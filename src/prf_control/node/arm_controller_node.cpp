@@ -7,8 +7,9 @@
 namespace prf_control {
 namespace {
 
+constexpr const char* kJointStates = "joint_states";
+constexpr const char* kSetpoint = "execution/setpoint";
 constexpr double kWarnPeriod = 1.0;      // [s]
-constexpr double kArmlessPeriod = 5.0;   // [s]
 constexpr std::uint64_t kArmless = 100;  // messages: other parts of the robot may publish, too
 constexpr std::uint32_t kQueue = 1000;   // messages, 10 s of ticks
 
@@ -43,13 +44,22 @@ ArmControllerNode::ArmControllerNode(ros::NodeHandle& node, const NodeParams& pa
                         "limit of every joint, rad/s^2"}},
                       [this](const prf_ros::ReconfigurableParams::Values& values) {
                         controller_.tune(values.at("velocity_scale"), values.at("acceleration"));
-                      }) {
+                      }),
+      inputs_(node, &diagnostics_) {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("control", this, &ArmControllerNode::diagnose);
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  joints_ = node.subscribe("joint_states", kQueue, &ArmControllerNode::on_joints, this, hints);
-  setpoint_ =
-      node.subscribe("execution/setpoint", kQueue, &ArmControllerNode::on_setpoint, this, hints);
+  inputs_.subscribe<sensor_msgs::JointState>(
+      {kJointStates, "sensor_msgs/JointState with " + listed(joint_names_),
+       1.0 / params.tick_period},
+      kQueue, [this](const sensor_msgs::JointStateConstPtr& message) { on_joints(*message); });
+  inputs_.subscribe<trajectory_msgs::MultiDOFJointTrajectory>(
+      {kSetpoint,
+       "trajectory_msgs/MultiDOFJointTrajectory with the stamp of each joint_states, " +
+           params.hand_frame + " in " + params.planning_frame,
+       1.0 / params.tick_period},
+      kQueue, [this](const trajectory_msgs::MultiDOFJointTrajectoryConstPtr& message) {
+        on_setpoint(*message);
+      });
   // After subscribing: a node that sees this publisher may start, and nothing is missed.
   status_ = node.advertise<prf_msgs::ControlStatus>("control/status", kQueue);
   command_ = node.advertise<trajectory_msgs::JointTrajectory>("joint_command", kQueue);
@@ -65,38 +75,35 @@ void ArmControllerNode::on_joints(const sensor_msgs::JointState& message) {
   const auto begin = Clock::now();
   const JoinerCounts before = controller_.joiner_counts();
   publish(controller_.add_joints(*reading.sample), begin);
-  warn_of_drop("joint_states", reading.sample->stamp, before);
+  note_drop(kJointStates, before);
 }
 
 void ArmControllerNode::ignore(const sensor_msgs::JointState& message, const std::string& refusal) {
   if (!refusal.empty()) {
-    ++incomplete_joint_states_;
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s", refusal.c_str());
+    inputs_.drop(kJointStates, "stamp or joints cannot be used");
+    ROS_WARN_THROTTLE(kWarnPeriod, "joint_states: %s: dropped", refusal.c_str());
   } else if (++armless_in_a_row_ >= kArmless) {
-    ROS_WARN_THROTTLE(kArmlessPeriod,
-                      "joint_states: %llu messages in a row without a joint of the arm, expected "
-                      "%s, received %s",
-                      static_cast<unsigned long long>(armless_in_a_row_),
+    inputs_.drop(kJointStates, "no joint of the arm in it");
+    ROS_WARN_THROTTLE(kWarnPeriod, "joint_states: expected the joints %s, received %s",
                       listed(joint_names_).c_str(), listed(message.name).c_str());
   }
-  diagnostics_.update();
 }
 
 void ArmControllerNode::on_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message) {
+  const auto stamp = prf_ros::usable_stamp(message.header.stamp);
+  if (!stamp) {
+    inputs_.drop(kSetpoint, "stamp beyond the bounds of time");
+    return;
+  }
   const auto begin = Clock::now();
   const JoinerCounts before = controller_.joiner_counts();
-  const prf_core::Stamp stamp = prf_ros::to_core(message.header.stamp);
-  publish(controller_.add_setpoint(stamp, to_setpoint(message, params_)), begin);
-  warn_of_drop("execution/setpoint", stamp, before);
+  publish(controller_.add_setpoint(*stamp, to_setpoint(message, params_)), begin);
+  note_drop(kSetpoint, before);
 }
 
-void ArmControllerNode::warn_of_drop(const char* topic, prf_core::Stamp stamp,
-                                     const JoinerCounts& before) {
+void ArmControllerNode::note_drop(const char* topic, const JoinerCounts& before) {
   const std::string reason = drop_between(before, controller_.joiner_counts());
-  if (reason.empty()) return;
-  ++drops_;
-  ROS_WARN_THROTTLE(kWarnPeriod, "%s stamped %.3f s dropped: %s; the last tick was %.3f s", topic,
-                    prf_core::to_seconds(stamp), reason.c_str(), prf_core::to_seconds(last_.stamp));
+  if (!reason.empty()) inputs_.drop(topic, reason);
 }
 
 void ArmControllerNode::publish(const std::vector<ControlResult>& results,
@@ -128,7 +135,6 @@ void ArmControllerNode::log(const ControlResult& result) {
 
 void ArmControllerNode::summarise(diagnostic_updater::DiagnosticStatusWrapper& out) {
   using Level = diagnostic_msgs::DiagnosticStatus;
-  const std::uint64_t lost = drops_ + incomplete_joint_states_;
   if (controller_.counts().ticks == 0) {
     out.summary(Level::ERROR,
                 "no control tick: no joint_states with all of " + listed(joint_names_));
@@ -136,17 +142,14 @@ void ArmControllerNode::summarise(diagnostic_updater::DiagnosticStatusWrapper& o
     out.summary(Level::ERROR, last_.reason);
   } else if (last_.code > ControlCode::kLimited || is_outside(last_)) {
     out.summary(Level::WARN, last_.reason);
-  } else if (lost > lost_before_) {
-    out.summary(Level::WARN,
-                std::to_string(lost - lost_before_) + " messages dropped or ignored of late");
   } else {
     out.summary(Level::OK, last_.reason.empty() ? "fine" : last_.reason);
   }
-  lost_before_ = lost;
 }
 
 void ArmControllerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& out) {
   summarise(out);
+  inputs_.report(out);
   const ControllerCounts& counts = controller_.counts();
   const JoinerCounts& joiner = controller_.joiner_counts();
   out.add("ticks", counts.ticks);
@@ -155,7 +158,6 @@ void ArmControllerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& ou
   out.add("set-points late or twice", joiner.late_setpoints);
   out.add("set-points far ahead", joiner.far_ahead_setpoints);
   out.add("set-points invalid", counts.invalid_setpoints);
-  out.add("joint_states incomplete", incomplete_joint_states_);
   out.add("joint_states not usable", counts.faulty_joints);
   out.add("commands refused by the gate", counts.refused_commands);
   out.add("ticks with a joint reported in another turn", counts.other_turns);

@@ -7,6 +7,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
+#include <prf_ros/input_monitor.hpp>
 #include <prf_ros/reconfigurable.hpp>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ class ArmControllerNode {
   void on_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message);
   void ignore(const sensor_msgs::JointState& message, const std::string& refusal);
   void publish(const std::vector<ControlResult>& results, Clock::time_point begin);
-  void warn_of_drop(const char* topic, prf_core::Stamp stamp, const JoinerCounts& before);
+  void note_drop(const char* topic, const JoinerCounts& before);
   void log(const ControlResult& result);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& out);
   void summarise(diagnostic_updater::DiagnosticStatusWrapper& out);
@@ -37,14 +38,11 @@ class ArmControllerNode {
   ArmController controller_;
   prf_ros::ReconfigurableParams reconfigurable_;
   ros::Publisher command_, status_;
-  ros::Subscriber joints_, setpoint_;
   diagnostic_updater::Updater diagnostics_;
+  prf_ros::InputMonitor inputs_;
   ControlResult last_;
-  std::uint64_t incomplete_joint_states_ = 0;
   std::uint64_t armless_in_a_row_ = 0;  // messages
-  std::uint64_t drops_ = 0;
-  std::uint64_t lost_before_ = 0;  // when diagnostics were published last
-  double longest_tick_ = 0.0;      // [s]
+  double longest_tick_ = 0.0;           // [s]
 };
 
 }  // namespace prf_control

@@ -2,6 +2,7 @@
 #include "messages.hpp"
 
 #include <algorithm>
+#include <prf_core/quoted.hpp>
 #include <prf_ros/conversions.hpp>
 
 namespace prf_control {
@@ -9,17 +10,18 @@ namespace prf_control {
 using prf_ros::to_core;
 
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 200;
   std::string text;
   for (const std::string& name : names) {
     text += (text.empty() ? "" : ", ") + name;
-    if (text.size() > kLongest) return "[" + text.substr(0, kLongest) + "...]";
+    if (text.size() > prf_core::kMaxQuoted) break;
   }
-  return "[" + text + "]";
+  return prf_core::quoted(text);
 }
 
 JointReading to_sample(const sensor_msgs::JointState& message,
                        const std::vector<std::string>& joint_names) {
+  const auto stamp = prf_ros::usable_stamp(message.header.stamp);
+  if (!stamp) return {std::nullopt, "its stamp is beyond the bounds of time"};
   JointVector position;
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < joint_names.size(); ++i) {
@@ -30,29 +32,27 @@ JointReading to_sample(const sensor_msgs::JointState& message,
       continue;
     }
     if (std::find(found + 1, message.name.end(), name) != message.name.end()) {
-      return {std::nullopt, "joint_states names " + name + " twice: ignored"};
+      return {std::nullopt, "it names " + name + " twice"};
     }
     const auto index = static_cast<std::size_t>(found - message.name.begin());
     if (index >= message.position.size()) {
-      return {std::nullopt, "joint_states has " + std::to_string(message.name.size()) +
-                                " names and " + std::to_string(message.position.size()) +
-                                " positions: ignored"};
+      return {std::nullopt, "it has " + std::to_string(message.name.size()) + " names and " +
+                                std::to_string(message.position.size()) + " positions"};
     }
     position[static_cast<Eigen::Index>(i)] = message.position[index];
   }
   if (missing.size() == joint_names.size()) return {};
   if (!missing.empty()) {
-    return {std::nullopt, "joint_states lacks " + listed(missing) + ", has " +
-                              listed(message.name) + ": ignored"};
+    return {std::nullopt, "it lacks " + listed(missing) + ", has " + listed(message.name)};
   }
-  return {checked_joints(to_core(message.header.stamp), position, joint_names), ""};
+  return {checked_joints(*stamp, position, joint_names), ""};
 }
 
 Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
                      const NodeParams& params) {
   if (message.points.empty()) return hold_setpoint();
   if (message.header.frame_id != params.planning_frame) {
-    return refused_setpoint("frame_id '" + message.header.frame_id + "' must be '" +
+    return refused_setpoint("frame_id " + prf_core::quoted(message.header.frame_id) + " must be '" +
                             params.planning_frame + "'");
   }
   if (message.joint_names != std::vector<std::string>{params.hand_frame}) {

@@ -25,7 +25,7 @@ struct JointReading {
 [[nodiscard]] JointReading to_sample(const sensor_msgs::JointState& message,
                                      const std::vector<std::string>& joint_names);
 
-// "[a, b]", cut after 200 characters.
+// Quoted, cut after 200 characters.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 [[nodiscard]] Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,

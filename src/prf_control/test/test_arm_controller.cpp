@@ -59,6 +59,7 @@ TEST(ArmController, NamesTheJointThatSlowsItDown) {
   EXPECT_NE(result.reason.find("bound 0.79587 rad/s"), std::string::npos) << result.reason;
 }
 
+// Fault 24: a set-point out of reach -> the nearest pose, UNREACHABLE with the deviation
 TEST(ArmController, ReportsASetpointOutOfReach) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
@@ -68,6 +69,8 @@ TEST(ArmController, ReportsASetpointOutOfReach) {
   EXPECT_NEAR(result.deviation, 2.0, 0.01);
 }
 
+// Fault 1, 39, A1: joints or set-point that cannot be used -> holds, says why, and reports the
+// following error all the same
 TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
@@ -80,10 +83,13 @@ TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
 
   const ControlResult faulty = ask(controller, faulty_joints_at(3), beside_home(0.05));
   EXPECT_EQ(faulty.code, ControlCode::kFailing);
+  EXPECT_NEAR(faulty.position_error, 0.05, 1e-12) << "of the last known hand";
   EXPECT_EQ(faulty.reason, "joint_3 bad");
   EXPECT_EQ(faulty.command->position, home());
 }
 
+// Fault 26, 27: set-points stop for a second, as when the decision is respawned -> holds within the
+// timeout, resumes without a jump
 TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
   ArmController controller(controller_params());
   std::vector<ControlResult> results;
@@ -112,6 +118,8 @@ TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
   EXPECT_LE(results.back().deviation, 1e-6);
 }
 
+// Fault 39: the arm is moved by force -> the command begins anew where the arm is, and the joint is
+// named
 TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
@@ -121,6 +129,10 @@ TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
   EXPECT_TRUE(result.restarted);
   EXPECT_NE(result.reason.find("joint_4"), std::string::npos);
   EXPECT_EQ(result.command->position, moved);
+  EXPECT_GT(result.position_error, 0.05) << "from the set-point, not from the new command";
+  moved[3] += 0.25;
+  EXPECT_GT(ask(controller, joints_at(2, moved), hold_setpoint()).position_error, 0.05)
+      << "from where it should have held";
 }
 
 // Fault 37: a driver begins another count of a continuous joint's turns -> the commands follow, the
@@ -141,6 +153,8 @@ TEST(ArmController, FollowsAContinuousJointIntoAnotherTurn) {
   expect_within_limits(moved, *result.command, kDt);
 }
 
+// Fault 11, 13: the clock goes back or leaps, confirmed by three ticks -> the command begins anew
+// at the joints
 TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
   ArmController controller(controller_params());
   (void)ask(controller, joints_at(100), hold_setpoint());

@@ -11,6 +11,7 @@ import rostest
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import Transform, Twist
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
 
@@ -124,10 +125,12 @@ class ArmControllerNode(unittest.TestCase):
         rospy.sleep(0.2)
         self.assertEqual((len(self.commands), len(self.statuses)), (2, 2))
 
+    # Fault 27: joint_states in another order, with other joints -> matched by name
     def test_joints_are_matched_by_name(self):
         command, _ = self.ask(0, hold(self.stamp(0)), shuffled=True)
         self.assertEqual(list(command.points[0].positions), HOME)
 
+    # Fault 40, A2: a joint_states of the legs alone, whatever its stamp -> no tick, nothing is reset
     def test_joint_states_without_the_arm_are_no_tick(self):
         other = JointState(name=LEGS, position=[0.1, 0.2])
         other.header.stamp = self.stamp(50)
@@ -135,6 +138,34 @@ class ArmControllerNode(unittest.TestCase):
         command, _ = self.ask(0, hold(self.stamp(0)))
         self.assertEqual(list(command.points[0].positions), HOME)
 
+    # Fault 46, A12: joints of other names, or a few of the arm's -> dropped; the log names expected and received ones
+    def test_other_joint_names_are_told(self):
+        lines, seen = [], threading.Condition()
+
+        def note(message):
+            with seen:
+                lines.append(message.msg)
+                seen.notify_all()
+        log = rospy.Subscriber('/rosout', Log, note)
+        self.addCleanup(log.unregister)
+        while log.get_num_connections() < 2:  # this node and the controller
+            rospy.sleep(0.02)
+        few = JointState(name=ARM[:5], position=HOME[:5])
+        few.header.stamp = self.stamp(1)
+        self.joints.publish(few)
+        for tick in range(110):
+            other = JointState(name=['panda_joint%d' % i for i in range(1, 8)], position=HOME)
+            other.header.stamp = self.stamp(tick)
+            self.joints.publish(other)
+        for words in (('j2s7s300_joint_6, j2s7s300_joint_7', 'has', 'j2s7s300_joint_5'),
+                      ('expected', 'j2s7s300_joint_1', 'received', 'panda_joint7')):
+            with seen:
+                self.assertTrue(seen.wait_for(
+                    lambda: any(all(word in line for word in words) for line in lines), PATIENCE),
+                    '%s not in %s' % (words, lines))
+        self.assertEqual(len(self.commands), 0)
+
+    # Fault 1: a measured joint that is not finite -> FAILING, the arm holds
     def test_joints_that_are_not_finite_make_it_hold(self):
         self.ask(0, hold(self.stamp(0)))
         command, status = self.ask(1, setpoint(self.stamp(1)), HOME[:6] + [float('nan')])
@@ -142,6 +173,7 @@ class ArmControllerNode(unittest.TestCase):
         self.assertIn('j2s7s300_joint_7', status.reason)
         self.assertEqual(list(command.points[0].positions), HOME)
 
+    # Fault 1, 2, 43: a set-point that is not finite, absurd, of a zero quaternion or another frame -> the arm holds, the reason is told
     def test_bad_setpoints_are_refused_with_the_reason(self):
         nan = float('nan')
         two = setpoint(self.stamp(7))
@@ -161,6 +193,7 @@ class ArmControllerNode(unittest.TestCase):
             self.assertIn(reason, status.reason)
             self.assertEqual(list(command.points[0].positions), HOME)
 
+    # Fault 27, 38: no set-points for max_wait -> the arm holds, STALE_SETPOINT
     def test_silent_setpoints_make_it_hold_by_data_time(self):
         self.ask(0, hold(self.stamp(0)))
         for tick in range(1, 32):
@@ -195,6 +228,7 @@ class ArmControllerNode(unittest.TestCase):
                 self.assertLessEqual(now, share + 1e-9)
         return fastest
 
+    # Fault 29: parameters changed in motion -> applied as a whole between two ticks
     def test_tuning_is_applied_whole_while_the_arm_moves(self):
         self.assertEqual(self.tune(), FULL)
         self.addCleanup(self.tune, **FULL)
@@ -205,6 +239,7 @@ class ArmControllerNode(unittest.TestCase):
         self.move(60, 140, 0.3, 2.0)
         self.assertEqual(rospy.get_param('arm_controller/acceleration'), 2.0)
 
+    # Fault 29, A9: a change with one bad value -> refused as a whole with name and bound
     def test_tuning_is_refused_whole_with_name_and_bound(self):
         self.addCleanup(self.tune, **FULL)
         for numbers, reason in (

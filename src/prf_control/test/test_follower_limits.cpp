@@ -39,6 +39,7 @@ PoseSetpoint moved(const PoseSetpoint& from, double dt) {
   return to;
 }
 
+// Fault 25, 43: any set-point, a kilometre away or at 900 rad/s -> every command within all limits
 TEST(SetpointFollower, KeepsEveryLimitWhateverIsAsked) {
   std::mt19937 random(11);
   SetpointFollower follower(params());
@@ -73,6 +74,8 @@ TEST(SetpointFollower, KeepsEveryLimitWhateverIsAsked) {
 // Straight lines of the hand through the whole workspace: over the shoulder, the stretched elbow,
 // the folded wrist. The commands never jump, whichever branches the solutions change; a refused
 // change of branch lasts no longer than branch_patience.
+// Fault 25: the hand is led through singular postures -> no joint jumps, refusals end after
+// branch_patience
 TEST(SetpointFollower, PassesSingularPosturesWithoutAJump) {
   constexpr int kTicks = 400;
   const int patience = static_cast<int>(params().branch_patience / kDt);
@@ -107,6 +110,7 @@ TEST(SetpointFollower, PassesSingularPosturesWithoutAJump) {
   EXPECT_GT(refused, 0) << "no line meets a change of branch";
 }
 
+// Fault 28, A9: a parameter beyond its physical bounds on either side -> refused by name
 TEST(FollowerParams, RefuseImpossibleValuesByName) {
   const double nan = std::nan("");
   const auto refusal = [](double FollowerParams::*member, double value) -> std::string {
@@ -119,7 +123,7 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
     }
     return "";
   };
-  for (const double value : {0.0, -1.0, nan, 1e9}) {
+  for (const double value : {0.0, -1.0, nan, 1e9, 5e-324, 1e308}) {
     EXPECT_NE(refusal(&FollowerParams::velocity_scale, value).find("velocity_scale"),
               std::string::npos);
     EXPECT_NE(refusal(&FollowerParams::acceleration, value).find("acceleration"),
@@ -140,6 +144,7 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
             std::string::npos);
 }
 
+// Fault 28, A9: as above, for the controller's own parameters
 TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
   const auto refusal = [](const ArmControllerParams& bad) -> std::string {
     try {

@@ -113,6 +113,42 @@ TEST(LateChain, DoesNotRunAwayFromAnArmThatDoesNotMove) {
   EXPECT_GT(controller.counts().restarts, 5u);
 }
 
+// Fault 40, A2: one tick or set-point late, far ahead or doubled -> dropped and counted, the run
+// goes on bit by bit
+TEST(OddMessages, CostNothingButThemselves) {
+  Results expected;
+  for (const bool odd : {false, true}) {
+    ArmController controller(controller_params());
+    Results results;
+    for (int i = 1000; i < 1200; ++i) {
+      append(results, controller.add_joints(joints_at(i)));
+      if (odd && i % 20 == 0) {
+        for (const int away : {0, -1, -100, -500, 100000}) {
+          append(results, controller.add_joints(joints_at(i + away, JointVector::Ones())));
+          if (away != 0)
+            append(results, controller.add_setpoint((i + away) * kTick, hold_setpoint()));
+        }
+      }
+      append(results, controller.add_setpoint(i * kTick, beside_home(0.02)));
+      if (odd) append(results, controller.add_setpoint(i * kTick, hold_setpoint()));
+    }
+    if (!odd) expected = results;
+    ASSERT_EQ(results.size(), 200u);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      ASSERT_EQ(results[i].stamp, expected[i].stamp);
+      ASSERT_EQ(results[i].code, expected[i].code) << i;
+      ASSERT_EQ(results[i].command->position, expected[i].command->position) << i;
+    }
+    if (!odd) continue;
+    EXPECT_EQ(controller.counts().restarts, 1u);
+    EXPECT_EQ(controller.joiner_counts().new_runs, 0u);
+    EXPECT_EQ(controller.joiner_counts().duplicate_ticks, 10u);
+    EXPECT_EQ(controller.joiner_counts().old_ticks, 30u);
+    EXPECT_EQ(controller.joiner_counts().far_ahead_ticks, 10u);
+    EXPECT_GE(controller.joiner_counts().late_setpoints, 200u);
+  }
+}
+
 // Fault 26: the controller is killed in motion and respawned -> begins where the joints are, at
 // rest, within all limits
 TEST(Respawn, GoesOnFromTheMeasuredJointsWithoutAJump) {
