@@ -70,8 +70,8 @@ enum class IkStatus { kSolved, kOutOfReach, kNoSolutionWithinLimits };
 // limits. inverse() seeks the least cost, but does not guarantee it: it returns the local minimum
 // if that is within 0.35 rad of the seed, otherwise the cheapest of at most 4 solutions.
 struct IkParams {
-  // Squared distance is sum_i weight_i (q_i - seed_i)^2, 1e-3 to 1e3. The default measures time of travel
-  // relative to the slowest joints: (36 deg/s / 48 deg/s)^2 = 0.5625.
+  // Squared distance is sum_i weight_i (q_i - seed_i)^2, 1e-3 to 1e3. The default measures time of
+  // travel relative to the slowest joints: (36 deg/s / 48 deg/s)^2 = 0.5625.
   JointVector weight = (JointVector() << 1.0, 1.0, 1.0, 1.0, 0.5625, 0.5625, 0.5625).finished();
   // Penalty limit_weight * (1 - d / limit_margin)^2 for a joint at distance d < limit_margin of a
   // limit.
