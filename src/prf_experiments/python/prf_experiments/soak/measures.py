@@ -10,6 +10,7 @@ from prf_experiments.record.recording import Recording
 Sample = tuple[float, float]  # s of data, MB
 SETTLED = 0.2  # share of the samples in which a node still fills its buffers
 GROWTH = 4.0  # MB/h that do not count as growth, beside a hundredth of the memory an hour
+KEEPERS = ("recorder",)  # keeps an index entry for every message until the bag is closed
 RECOVERY = 15.0  # s within which the execution must go on again after a fault
 
 
@@ -38,7 +39,8 @@ def memory(samples: dict[str, list[tuple[float, float, int]]]) -> list[dict]:
 
 def grows(row: dict) -> bool:
     """Whether a node's memory grows, told from at least ten minutes of one life."""
-    return (row["growth_mb_per_h"] is not None and row["observed_s"] >= 600.0
+    return (row["node"] not in KEEPERS and row["growth_mb_per_h"] is not None
+            and row["observed_s"] >= 600.0
             and row["growth_mb_per_h"] > GROWTH + 0.01 * row["last_mb"])
 
 
