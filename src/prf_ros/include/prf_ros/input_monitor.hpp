@@ -60,6 +60,8 @@ class InputMonitor {
   // node's own, because drops are counted by reason.
   void drop(const std::string& topic, const std::string& reason);
 
+  [[nodiscard]] const std::vector<ros::Subscriber>& subscribers() const { return subscribers_; }
+
   // Merges what is wrong with the inputs into the node's status, and adds counts and rates.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
