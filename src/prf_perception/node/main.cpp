@@ -8,7 +8,9 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <prf_ros/conversions.hpp>
+#include <prf_ros/input_monitor.hpp>
 #include <prf_ros/private_parameters.hpp>
+#include <prf_ros/wall_throttle.hpp>
 #include <set>
 #include <stdexcept>
 
@@ -23,19 +25,35 @@ namespace {
 namespace encodings = sensor_msgs::image_encodings;
 namespace topics = prf_msgs::topics;
 
+constexpr double kRate = 30.0;  // Hz, of images
+constexpr const char* kBadStamp = "its stamp is at an end of ROS time";
+
+const char* what_is_wrong(prf_core::StampOrder order) {
+  switch (order) {
+    case prf_core::StampOrder::kDuplicate:
+      return "an image of its stamp has come before";
+    case prf_core::StampOrder::kOld:
+      return "its stamp is older than that of an image before";
+    default:
+      return "its stamp is too far ahead of the image before";
+  }
+}
+
 class TagDetectorNode {
  public:
   TagDetectorNode(ros::NodeHandle node, const TagDetectorNodeParams& params)
       : params_(params),
         detector_(params.detector),
-        join_(prf_core::from_seconds(params.info_wait)) {
-    const auto hints = ros::TransportHints().tcpNoDelay();
+        join_(prf_core::from_seconds(params.info_wait)),
+        inputs_(node, &updater_) {
     updater_.setHardwareID("none");
     updater_.add("images", this, &TagDetectorNode::diagnose);
-    info_subscriber_ =
-        node.subscribe(topics::kCameraCameraInfo, 100, &TagDetectorNode::on_info, this, hints);
-    image_subscriber_ =
-        node.subscribe(topics::kCameraImageRaw, 10, &TagDetectorNode::on_image, this, hints);
+    inputs_.subscribe<sensor_msgs::CameraInfo>(
+        {topics::kCameraCameraInfo, "sensor_msgs/CameraInfo with the stamp of each image", kRate},
+        100, [this](const sensor_msgs::CameraInfoConstPtr& info) { on_info(info); });
+    inputs_.subscribe<sensor_msgs::Image>(
+        {topics::kCameraImageRaw, "sensor_msgs/Image, mono8, bgr8 or rgb8", kRate}, 10,
+        [this](const sensor_msgs::ImageConstPtr& image) { on_image(image); });
     // Advertised last: whoever sees this publisher may send, both topics are subscribed.
     publisher_ = node.advertise<prf_msgs::TagDetectionArray>(topics::kTagDetections, 100);
   }
@@ -44,15 +62,24 @@ class TagDetectorNode {
   using Join = StampJoin<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
   void on_image(const sensor_msgs::ImageConstPtr& image) {
-    if (join_.push_first(prf_ros::to_core(image->header.stamp), image)) {
+    const auto stamp = prf_ros::usable_stamp(image->header.stamp);
+    if (!stamp) return inputs_.drop(topics::kCameraImageRaw, kBadStamp);
+    const prf_core::StampOrder order = join_.push_first(*stamp, image);
+    if (order == prf_core::StampOrder::kBackwardJump) {
       ROS_WARN("image stamps went back to %.3f s: new run", image->header.stamp.toSec());
       updater_.force_update();
+    } else if (!prf_core::is_accepted(order)) {
+      inputs_.drop(topics::kCameraImageRaw, what_is_wrong(order));
     }
     detect_joined();
   }
 
   void on_info(const sensor_msgs::CameraInfoConstPtr& info) {
-    join_.push_second(prf_ros::to_core(info->header.stamp), info);
+    const auto stamp = prf_ros::usable_stamp(info->header.stamp);
+    if (!stamp) return inputs_.drop(topics::kCameraCameraInfo, kBadStamp);
+    if (!join_.push_second(*stamp, info)) {
+      inputs_.drop(topics::kCameraCameraInfo, "one of its stamp has come before");
+    }
     detect_joined();
   }
 
@@ -63,8 +90,10 @@ class TagDetectorNode {
       try {
         found = detect(*joined);
       } catch (const std::exception& error) {
-        ++refused_;
-        ROS_WARN_THROTTLE(1.0, "image at %.3f s refused: %s", header.stamp.toSec(), error.what());
+        inputs_.drop(topics::kCameraImageRaw, "it cannot be used with its camera_info");
+        if (refusals_.is_due()) {
+          ROS_WARN("image at %.3f s refused: %s", header.stamp.toSec(), error.what());
+        }
       }
       const auto message = to_message(header, params_.detector.family, found);
       publisher_.publish(message);
@@ -79,14 +108,13 @@ class TagDetectorNode {
     const sensor_msgs::Image& image = *joined.first;
     if (image.header.frame_id.empty()) throw std::invalid_argument("its frame_id is empty");
     if (!joined.second) throw std::invalid_argument("no camera_info has its stamp");
-    if (image.encoding != encodings::MONO8 && image.encoding != encodings::BGR8 &&
-        image.encoding != encodings::RGB8) {
-      throw std::invalid_argument("encoding = " + image.encoding + ", must be mono8, bgr8 or rgb8");
-    }
+    to_layout(image).validate();
+    const CameraIntrinsics camera = to_intrinsics(**joined.second, image);
+    camera.validate();
     const auto grey = cv_bridge::toCvShare(joined.first, encodings::MONO8);
     return detector_.detect(
         {grey->image.data, grey->image.cols, grey->image.rows, static_cast<int>(grey->image.step)},
-        to_intrinsics(**joined.second));
+        camera);
   }
 
   // Of several tags with one id the first, which has the largest margin, gives the frame.
@@ -99,22 +127,18 @@ class TagDetectorNode {
         transforms.push_back(to_transform(array.header, detection));
       } else {
         ++duplicates_;
-        ROS_WARN_THROTTLE(1.0, "tag id %d is more than once in an image", detection.id);
+        if (doubled_.is_due()) ROS_WARN("tag id %d is more than once in an image", detection.id);
       }
     }
     if (!transforms.empty()) broadcaster_.sendTransform(transforms);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    if (refused_ > 0) {
-      status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "images were refused");
-    } else {
-      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "all images were read");
-    }
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "images are read");
     status.add("images", images_);
     status.add("tags", tags_);
-    status.add("images refused", refused_);
     status.add("tags with a duplicate id", duplicates_);
+    inputs_.report(status);
   }
 
   TagDetectorNodeParams params_;
@@ -122,13 +146,12 @@ class TagDetectorNode {
   Join join_;
   std::size_t images_ = 0;
   std::size_t tags_ = 0;
-  std::size_t refused_ = 0;
   std::size_t duplicates_ = 0;
+  prf_ros::WallThrottle refusals_, doubled_;
   ros::Publisher publisher_;
-  ros::Subscriber image_subscriber_;
-  ros::Subscriber info_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
   diagnostic_updater::Updater updater_;
+  prf_ros::InputMonitor inputs_;
 };
 
 }  // namespace

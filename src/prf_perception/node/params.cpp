@@ -8,7 +8,7 @@ namespace prf_perception {
 
 void TagDetectorNodeParams::validate() const {
   detector.validate();
-  for (const int id : tag_ids) prf_core::require(id >= 0, "an entry of tag_ids", id, ">= 0");
+  for (const int id : tag_ids) prf_core::require_between("an entry of tag_ids", id, 0, 65535);
   prf_core::require_between("info_wait", info_wait, 0.0, 10.0, "s");
 }
 

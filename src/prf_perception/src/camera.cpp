@@ -4,22 +4,78 @@
 #include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
+#include <sstream>
+#include <string>
 
 namespace prf_perception {
+namespace {
+
+// Focal length over width or height: from a view of 157 degrees to one of 0.6 degrees.
+constexpr double kShortest = 0.1;
+constexpr double kLongest = 100.0;
+constexpr double kPixelAspect = 2.0;  // fx / fy at most, and at least its inverse
+// Of what is seen over the ideal radius; 1 at the centre.
+constexpr double kLeastSlope = 0.2;
+constexpr double kLargestSlope = 5.0;
+constexpr double kMargin = 1.1;  // of the image's corners
+constexpr int kRadii = 200;
+
+void require_focal_length(const std::string& name, double value, double size) {
+  prf_core::require_between(name, value, kShortest * size, kLongest * size, "px");
+}
+
+// The image's own size beyond each border: an image that was cut out of a larger one.
+void require_principal_point(const std::string& name, double value, double size) {
+  prf_core::require_between(name, value, -size, 2.0 * size, "px");
+}
+
+// Normalised distance of the image's farthest corner from the optical axis, as it is seen.
+double farthest_corner(const CameraIntrinsics& camera) {
+  const double x = std::max(std::abs(camera.cx), std::abs(camera.width - camera.cx)) / camera.fx;
+  const double y = std::max(std::abs(camera.cy), std::abs(camera.height - camera.cy)) / camera.fy;
+  return std::hypot(x, y);
+}
+
+// What is seen must move outward with the ideal radius r, neither too slowly nor too fast, until it
+// has passed the corners: a lens that folds the image over itself has no inverse there, and so no
+// pose. The derivatives of the tangential part are at most 6 (|p1| + |p2|) r. Not-a-number fails.
+bool rises_to_the_corners(const CameraIntrinsics& camera) {
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  const double tangential = 6.0 * (std::abs(p1) + std::abs(p2));
+  const double corner = kMargin * farthest_corner(camera);
+  const double step = corner / kRadii;
+  double seen = 0.0;
+  // With the least slope the corner is reached at this radius at the latest.
+  for (double r = 0.0; seen < corner && r <= corner / kLeastSlope + step; r += step) {
+    const double s = r * r;
+    seen = r * (1.0 + s * (k1 + s * (k2 + s * k3)));
+    const double slope = 1.0 + s * (3.0 * k1 + s * (5.0 * k2 + s * 7.0 * k3));
+    const double bend = tangential * r;
+    if (!(slope - bend > kLeastSlope && slope + bend < kLargestSlope)) return false;
+  }
+  return seen >= corner;
+}
+
+}  // namespace
 
 bool CameraIntrinsics::distorts() const {
   return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
 }
 
 void CameraIntrinsics::validate() const {
-  using prf_core::require;
-  require(width > 0, "camera width", width, "> 0 px");
-  require(height > 0, "camera height", height, "> 0 px");
-  require(fx > 0 && std::isfinite(fx), "camera fx", fx, "finite and > 0 px");
-  require(fy > 0 && std::isfinite(fy), "camera fy", fy, "finite and > 0 px");
-  prf_core::require_finite("camera cx", cx);
-  prf_core::require_finite("camera cy", cy);
-  for (const double d : distortion) prf_core::require_finite("camera distortion", d);
+  prf_core::require_between("camera width", width, kSmallestImage, kLargestImage, "px");
+  prf_core::require_between("camera height", height, kSmallestImage, kLargestImage, "px");
+  require_focal_length("camera fx", fx, std::max(width, height));
+  require_focal_length("camera fy", fy, std::max(width, height));
+  prf_core::require_between("camera fx / fy", fx / fy, 1.0 / kPixelAspect, kPixelAspect);
+  require_principal_point("camera cx", cx, width);
+  require_principal_point("camera cy", cy, height);
+  if (!distorts()) return;
+  std::ostringstream coefficients;
+  for (const double d : distortion) coefficients << d << " ";
+  prf_core::require(rises_to_the_corners(*this), "camera distortion k1 k2 p1 p2 k3",
+                    coefficients.str(),
+                    "such that what is seen moves outward with the radius, up to the corners");
 }
 
 }  // namespace prf_perception

@@ -160,13 +160,14 @@ double root_mean_square(const Minimum& minimum) { return std::sqrt(minimum.squar
 }  // namespace
 
 void CornerErrorModel::validate() const {
-  const auto require_usable = [](const char* name, double value, const char* unit) {
-    prf_core::require(value > 0 && std::isfinite(value), name, value,
-                      std::string("finite and > 0 ") + unit);
-  };
-  require_usable("corner_sigma", corner_sigma, "px");
-  require_usable("position_floor", position_floor, "m");
-  require_usable("orientation_floor", orientation_floor, "rad");
+  prf_core::require_between("corner_sigma", corner_sigma, 1e-3, 10.0, "px");
+  prf_core::require_between("position_floor", position_floor, 1e-7, 0.1, "m");
+  prf_core::require_between("orientation_floor", orientation_floor, 1e-7, 1.0, "rad");
+}
+
+double SquarePose::ambiguity() const {
+  if (!other_in_camera) return 0.0;
+  return other_error > 0.0 ? reprojection_error / other_error : 1.0;
 }
 
 Corners project_corners(const Eigen::Isometry3d& marker_in_camera, double side,
@@ -191,10 +192,15 @@ std::optional<SquarePose> estimate_square_pose(const Corners& corners,
   if (other && rotation_between(found->pose, other->pose).norm() < kSameRotation) other.reset();
   if (other && other->squared_error < found->squared_error) std::swap(*found, *other);
 
-  const SquarePose result{
-      found->pose, covariance_of(*found, other, corners, camera, side, model),
-      root_mean_square(*found),
-      other ? root_mean_square(*other) : std::numeric_limits<double>::infinity()};
+  SquarePose result;
+  result.marker_in_camera = found->pose;
+  result.covariance = covariance_of(*found, other, corners, camera, side, model);
+  result.reprojection_error = root_mean_square(*found);
+  result.other_error = std::numeric_limits<double>::infinity();
+  if (other) {
+    result.other_error = root_mean_square(*other);
+    result.other_in_camera = other->pose;
+  }
   if (!result.covariance.allFinite()) return std::nullopt;
   return result;
 }

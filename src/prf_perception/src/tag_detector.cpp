@@ -46,15 +46,29 @@ const FamilyFunctions* find_family(const std::string& name) {
 // libapriltag counts pixels from the first one's outer corner, the camera from its centre.
 constexpr double kHalfPixel = 0.5;
 
-// libapriltag crashes on images that are only a few of its 4 x 4 tiles, after decimation, large.
-constexpr int kMinSize = 32;
-
 Corners corners_of(const apriltag_detection_t& detection) {
   Corners corners;
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = {detection.p[i][0] - kHalfPixel, detection.p[i][1] - kHalfPixel};
   }
   return corners;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// A convex quadrilateral in or near the image, each corner spanning at least a pixel's area, in the
+// order of Corners. Not-a-number fails.
+bool is_quadrilateral(const Corners& corners, const CameraIntrinsics& camera) {
+  const double farthest = 4.0 * std::max(camera.width, camera.height);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(corners[i].cwiseAbs().maxCoeff() <= farthest)) return false;
+    const Eigen::Vector2d before = corners[i] - corners[(i + 3) % 4];
+    const Eigen::Vector2d after = corners[(i + 1) % 4] - corners[i];
+    if (!(cross(before, after) <= -1.0)) return false;
+  }
+  return true;
 }
 
 // libapriltag's own estimate, from its axes (y down, z into the tag) turned into ours.
@@ -78,7 +92,7 @@ Eigen::Isometry3d initial_pose(apriltag_detection_t& detection, const CameraIntr
 void TagDetectorParams::validate() const {
   require(find_family(family) != nullptr, "tag_family", family,
           "tag36h11, tag36h10, tag25h9 or tag16h5");
-  require(tag_size > 0 && std::isfinite(tag_size), "tag_size", tag_size, "finite and > 0 m");
+  require_between("tag_size", tag_size, 0.005, 5.0, "m");
   require_between("max_hamming", max_hamming, 0, 2, "bits");
   require_between("min_decision_margin", min_decision_margin, 0.0, 255.0, "grey levels");
   require_between("quad_decimate", quad_decimate, 1.0, 4.0);
@@ -131,6 +145,7 @@ class TagDetector::Impl {
     }
     const Corners corners = corners_of(raw);
     const Corners ideal = ideal_corners(corners, camera);
+    if (!is_quadrilateral(ideal, camera)) return std::nullopt;
     for (std::size_t i = 0; i < 4; ++i) {
       raw.p[i][0] = ideal[i].x() + kHalfPixel;
       raw.p[i][1] = ideal[i].y() + kHalfPixel;
@@ -165,8 +180,6 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& image,
           std::to_string(camera.width) + " px, the camera's");
   require(image.height == camera.height, "image height", image.height,
           std::to_string(camera.height) + " px, the camera's");
-  require(std::min(image.width, image.height) >= kMinSize, "image size",
-          std::min(image.width, image.height), ">= " + std::to_string(kMinSize) + " px");
   require(image.stride >= image.width, "image stride", image.stride, ">= the width");
   return impl_->detect(image, camera);
 }

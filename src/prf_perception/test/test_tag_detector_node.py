@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """tag_detector_node from outside: every image is answered once, bad parameters are refused."""
+import copy
 import os
 import subprocess
 import sys
@@ -13,7 +14,8 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, RegionOfInterest
+from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
 from prf_msgs.msg import TagDetectionArray
@@ -40,8 +42,18 @@ def frame(tag_id=None, columns=(WIDTH // 2,)):
     return pixels
 
 
+def tilted():
+    """The tag from afar, foreshortened: it is turned to the left or to the right."""
+    bits = np.array([[int(c) for c in row] for row in TAGS[0].split()], np.uint8)
+    tag = np.kron(bits, np.ones((6, 6), np.uint8)) * 255
+    tag = tag[:, np.arange(tag.shape[1]) % 8 != 7]
+    pixels = frame()
+    pixels[200:200 + tag.shape[0], 300:300 + tag.shape[1]] = tag
+    return pixels
+
+
 class TagDetectorNode(unittest.TestCase):
-    stamp = 100.0
+    stamp = 1000.0
 
     @classmethod
     def setUpClass(cls):
@@ -65,21 +77,27 @@ class TagDetectorNode(unittest.TestCase):
         raise AssertionError("waited in vain")
 
     def setUp(self):
+        rospy.rostime.wallsleep(0.3)  # for answers to the test before
         self.answers.clear()
         self.transforms.clear()
 
     def send(self, pixels, encoding="mono8", info=True, width=WIDTH, frame_id="camera",
-             lens=("", [])):
-        TagDetectorNode.stamp += 1 / 30
-        stamp = rospy.Time.from_sec(self.stamp)
+             lens=("", []), stamp=None, change=None):
+        """`change` is called with image and camera_info before they are published."""
+        if stamp is None:
+            TagDetectorNode.stamp += 1 / 30
+            stamp = self.stamp
+        stamp = rospy.Time.from_sec(stamp)
         image = Image(encoding=encoding, height=HEIGHT, width=pixels.shape[1],
                       step=pixels.strides[0], data=pixels.tobytes())
         image.header.stamp, image.header.frame_id = stamp, frame_id
+        message = CameraInfo(width=width, height=HEIGHT, distortion_model=lens[0], D=lens[1])
+        message.header = copy.deepcopy(image.header)
+        message.K = [FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1]
+        if change is not None:
+            change(image, message)
         self.images.publish(image)
         if info:
-            message = CameraInfo(width=width, height=HEIGHT, distortion_model=lens[0], D=lens[1])
-            message.header = image.header
-            message.K = [FOCAL, 0, (WIDTH - 1) / 2, 0, FOCAL, (HEIGHT - 1) / 2, 0, 0, 1]
             self.infos.publish(message)
         return stamp
 
@@ -121,6 +139,7 @@ class TagDetectorNode(unittest.TestCase):
         self.answer(2)
         self.assertEqual([len(a.detections) for a in self.answers], [1, 1])
 
+    # Fault 16: false tag of another id -> published under its id, gives no frame
     def test_tag_of_another_id_is_published_but_no_frame(self):
         self.send(frame(7))
         self.assertEqual([d.id for d in self.answer().detections], [7])
@@ -165,8 +184,80 @@ class TagDetectorNode(unittest.TestCase):
         self.assertEqual(self.answer(3).detections, [])
         self.send(frame(0), info=False)
         self.send(frame(0))
-        self.answer(5)
-        self.assertEqual([len(a.detections) for a in self.answers[3:]], [0, 1])
+        self.send(frame(0))
+        self.answer(6)
+        self.assertEqual([len(a.detections) for a in self.answers[3:]], [0, 1, 1])
+
+    # Fault 44, 43, A6: image and camera_info absurd or not of one another -> empty array, node goes on
+    def test_absurd_images_and_cameras_give_empty_arrays(self):
+        def image(**fields):
+            return lambda image, _: [setattr(image, name, value) for name, value in fields.items()]
+
+        def camera(**fields):
+            return lambda _, info: [setattr(info, name, value) for name, value in fields.items()]
+
+        def intrinsics(index, value):
+            def change(_, info):
+                info.K = [value if i == index else old for i, old in enumerate(info.K)]
+            return change
+
+        def distortion(index, value):
+            coefficients = [value if i == index else 0.0 for i in range(5)]
+            return camera(distortion_model="plumb_bob", D=coefficients)
+
+        numbers = (float("nan"), float("inf"), 1e300, -1e9, 1e9)
+        changes = [
+            image(width=15790321, height=272, step=15790321, data=bytes(16)),
+            image(height=HEIGHT + 1), image(step=2 ** 32 - 1), image(step=WIDTH - 1), image(data=b""),
+            image(encoding="x" * 10000), image(width=0, height=0, step=0, data=b""),
+            camera(height=1), camera(binning_x=2, binning_y=2),
+            camera(roi=RegionOfInterest(x_offset=8, width=100, height=100)),
+            camera(K=[0.0] * 9), intrinsics(0, 1e-6), intrinsics(1, 0.5), intrinsics(8, 0.0),
+            camera(header=Header(stamp=rospy.Time(), frame_id="another_camera")),
+            camera(distortion_model="x" * 10000, D=[0.1] * 100000),
+            *(intrinsics(index, value) for index in (0, 2, 4, 5) for value in numbers),
+            *(distortion(index, value) for index in range(5) for value in numbers)]
+        for count, change in enumerate(changes):
+            self.send(frame(0), change=lambda image, info: (
+                change(image, info), setattr(info.header, "stamp", image.header.stamp)))
+            self.wait(lambda: len(self.answers) > count)
+        self.assertEqual([a.detections for a in self.answer(len(changes)) and self.answers],
+                         [[]] * len(changes))
+        self.send(frame(0))
+        self.assertEqual(len(self.answer(len(changes) + 1).detections), 1)
+
+    # Fault 40, 42, A2: one image or camera_info old, early, doubled -> dropped; the next is answered
+    def test_wrong_stamps_cost_one_message(self):
+        self.send(frame(0))
+        self.answer()
+        for wrong in (self.stamp - 0.5, self.stamp - 60.0, 0.0, self.stamp, self.stamp + 100.0,
+                      4294967295.0):
+            self.answers.clear()
+            self.send(frame(0), stamp=wrong)
+            right = self.send(frame(0))
+            self.assertEqual(self.answer().header.stamp, right, f"after {wrong}")
+            self.assertEqual(len(self.answers[0].detections), 1)
+
+    # Fault 11: image stamps go back for good -> the third image begins the new run
+    def test_image_stamps_that_go_back_begin_a_new_run(self):
+        self.send(frame(0))
+        self.answer()
+        self.answers.clear()
+        TagDetectorNode.stamp -= 50.0
+        stamps = [self.send(frame(0)) for _ in range(4)]
+        self.answer(2)
+        self.assertEqual([a.header.stamp for a in self.answers], stamps[2:])
+
+    # Fault 18: pose ambiguity -> the detection carries the second pose, and how alike the two are
+    def test_the_second_pose_is_published(self):
+        self.send(tilted())
+        tag = self.answer().detections[0]
+        self.assertGreater(tag.ambiguity, 0.0)
+        self.assertLess(tag.ambiguity, 1.0)
+        other = tag.alternative_pose
+        self.assertAlmostEqual(other.position.z, tag.pose.pose.position.z, delta=0.05)
+        norm = sum(getattr(other.orientation, axis) ** 2 for axis in "xyzw")
+        self.assertAlmostEqual(norm, 1.0, places=9)
 
 
 class TagDetectorParameters(unittest.TestCase):
@@ -176,9 +267,13 @@ class TagDetectorParameters(unittest.TestCase):
         ("max_hamming", 3), ("max_hamming", 0.5), ("min_decision_margin", -1.0),
         ("quad_decimate", 0.0), ("min_white_black_diff", 0), ("corner_sigma", 0.0),
         ("position_floor", float("inf")), ("orientation_floor", -1.0), ("info_wait", -1.0),
+        ("tag_size", 5e-324), ("tag_size", 1e308), ("tag_ids", [70000]), ("corner_sigma", 5e-324),
+        ("corner_sigma", 1e308), ("min_decision_margin", 1e308), ("quad_decimate", 1e308),
+        ("position_floor", 5e-324), ("orientation_floor", 1e308), ("info_wait", 1e308),
         ("tag_sise", 0.1), ("quad_decimate", None),
     ]
 
+    # Fault 28, A9: parameters garbage, NaN or beyond physical bounds -> refused by name, code 2
     def test_bad_values_end_the_node_with_code_2_and_their_name(self):
         path = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "tag_detector.yaml")
         with open(path, encoding="utf-8") as file:

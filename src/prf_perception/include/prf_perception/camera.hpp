@@ -12,6 +12,11 @@
 
 namespace prf_perception {
 
+// Bounds of an image's width and height, px. libapriltag crashes on images that are only a few of
+// its 4 x 4 tiles, after decimation, large.
+inline constexpr int kSmallestImage = 32;
+inline constexpr int kLargestImage = 8192;
+
 struct CameraIntrinsics {
   double fx = 0.0;
   double fy = 0.0;
@@ -23,8 +28,9 @@ struct CameraIntrinsics {
 
   [[nodiscard]] bool distorts() const;
 
-  // Throws std::invalid_argument naming the value unless sizes and focal lengths are positive and
-  // everything is finite.
+  // Throws std::invalid_argument with name, value and bound for what no camera has. Sizes are
+  // 32 .. 8192 px, focal lengths 0.1 .. 100 times the image's size, the principal point is at most
+  // the image's size outside the image, and the lens does not fold the image over itself.
   void validate() const;
 };
 

@@ -41,6 +41,10 @@ struct SquarePose {
   Matrix6d covariance = Matrix6d::Zero();  // (x y z, rotation vector about the optical axes)
   double reprojection_error = 0.0;         // root mean square over the corners, px
   double other_error = 0.0;                // of the other minimum, px; infinite when there is none
+  std::optional<Eigen::Isometry3d> other_in_camera;  // the marker's pose at the other minimum
+
+  // reprojection_error / other_error, 0 .. 1: how alike the two minima are; 0 when there is one.
+  [[nodiscard]] double ambiguity() const;
 };
 
 // side: of the marker, m. guess: start of the minimisation, a pose from which it converges to one

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins two streams by equal stamps, whatever the order in which the streams arrive.
+// Joins a first stream with a second by equal stamps, whatever the order in which they arrive.
 //
-// Stamps within a stream must rise; this is not checked. Within a run every message of the first
-// stream comes out exactly once, in order: with the message of the second stream of the same stamp,
-// or alone once it is certain that none will come (the second stream is past that stamp), or when
-// the first stream's newest stamp is more than `max_wait` later. Unlike prf_core/stream_joiner.hpp
-// it waits for the second stream at every message, also when the second stream has just been
-// silent: an image is of no use without its camera_info. A stamp more than kNewRun behind the
-// newest of its stream starts a new run.
+// Each accepted message of the first stream comes out exactly once, in order, when the oldest one
+// is decided:
+//
+//   the second stream's message of its stamp has come          -> joined with it
+//   two later ones have come, at most kNear later              -> alone: it was lost; one proves
+//                                                                 nothing, its stamp may be wrong
+//   the first stream has gone on by more than max_wait         -> alone
+//   more than kMost of the first stream wait                   -> alone
+//
+// Unlike prf_core/stream_joiner.hpp it waits for the second stream at every message, also when the
+// second stream has just been silent: an image is of no use without its camera_info.
+//
+// The first stream alone has the clock (prf_core/clock_monitor.hpp), and only its jumps begin a new
+// run. What waited from the run before is dropped then.
 #pragma once
 
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <prf_core/clock_monitor.hpp>
 #include <prf_core/time.hpp>
 #include <utility>
 
@@ -21,7 +29,7 @@ namespace prf_perception {
 template <typename First, typename Second>
 class StampJoin {
  public:
-  static constexpr prf_core::Duration kNewRun = std::chrono::seconds(1);
+  static constexpr prf_core::Duration kNear = std::chrono::seconds(1);
 
   struct Joined {
     First first;
@@ -30,61 +38,71 @@ class StampJoin {
 
   explicit StampJoin(prf_core::Duration max_wait) : max_wait_(max_wait) {}
 
-  // Both return true when the stamp began a new run; what waited from the old one is dropped.
-  bool push_first(prf_core::Stamp stamp, First value) {
-    return push(firsts_, seconds_, stamp, value);
+  // Keeps the message if prf_core::is_accepted() its order.
+  prf_core::StampOrder push_first(prf_core::Stamp stamp, First value) {
+    const prf_core::StampOrder order = clock_.observe(stamp);
+    if (order == prf_core::StampOrder::kBackwardJump) {
+      firsts_.clear();
+      drop_seconds([stamp](prf_core::Stamp of_old_run) { return of_old_run - stamp > kNear; });
+    }
+    if (prf_core::is_accepted(order)) firsts_.emplace_back(stamp, std::move(value));
+    return order;
   }
+
+  // False, and without effect, when there is one of this stamp already.
   bool push_second(prf_core::Stamp stamp, Second value) {
-    const bool new_run = push(seconds_, firsts_, stamp, value);
-    if (seconds_.queue.size() > kMaxSeconds) seconds_.queue.pop_front();
-    return new_run;
+    if (find(stamp) != seconds_.end()) return false;
+    seconds_.emplace_back(stamp, std::move(value));
+    if (seconds_.size() > kMost) seconds_.pop_front();
+    return true;
   }
 
-  // The oldest message of the first stream when no later message can change what it is joined with;
-  // else nullopt.
+  // The oldest message of the first stream when it is decided; else nullopt.
   [[nodiscard]] std::optional<Joined> pop() {
-    if (firsts_.queue.empty()) return std::nullopt;
-    const prf_core::Stamp stamp = firsts_.queue.front().first;
-    auto& seconds = seconds_.queue;
-    while (!seconds.empty() && seconds.front().first < stamp) seconds.pop_front();
-
+    if (firsts_.empty()) return std::nullopt;
+    const prf_core::Stamp stamp = firsts_.front().first;
     std::optional<Second> match;
-    if (!seconds.empty() && seconds.front().first == stamp) {
-      match = seconds.front().second;
-    } else if (seconds.empty() && *firsts_.last - stamp <= max_wait_) {
+    if (const auto found = find(stamp); found != seconds_.end()) {
+      match = found->second;
+    } else if (later_seconds(stamp) < 2 && *clock_.newest() - stamp <= max_wait_ &&
+               firsts_.size() <= kMost) {
       return std::nullopt;
     }
-    Joined joined{std::move(firsts_.queue.front().second), std::move(match)};
-    firsts_.queue.pop_front();
+    // Those of a run that begins just now are farther back.
+    drop_seconds([stamp](prf_core::Stamp past) { return past < stamp && stamp - past <= kNear; });
+    Joined joined{std::move(firsts_.front().second), std::move(match)};
+    firsts_.pop_front();
     return joined;
   }
 
  private:
-  static constexpr std::size_t kMaxSeconds = 1000;
+  static constexpr std::size_t kMost = 100;  // of each stream
 
-  template <typename T>
-  struct Stream {
-    std::deque<std::pair<prf_core::Stamp, T>> queue;
-    std::optional<prf_core::Stamp> last;
-  };
+  using Seconds = std::deque<std::pair<prf_core::Stamp, Second>>;  // in order of arrival
 
-  template <typename Own, typename Other>
-  static bool push(Stream<Own>& own, Stream<Other>& other, prf_core::Stamp stamp, Own& value) {
-    const bool new_run = own.last && stamp < *own.last - kNewRun;
-    if (new_run) {
-      own.queue.clear();
-      const auto of_old_run = [&](const auto& entry) { return entry.first > stamp + kNewRun; };
-      other.queue.erase(std::remove_if(other.queue.begin(), other.queue.end(), of_old_run),
-                        other.queue.end());
-    }
-    own.last = stamp;
-    own.queue.emplace_back(stamp, std::move(value));
-    return new_run;
+  typename Seconds::iterator find(prf_core::Stamp stamp) {
+    return std::find_if(seconds_.begin(), seconds_.end(),
+                        [stamp](const auto& entry) { return entry.first == stamp; });
+  }
+
+  [[nodiscard]] std::ptrdiff_t later_seconds(prf_core::Stamp stamp) const {
+    return std::count_if(seconds_.begin(), seconds_.end(), [stamp](const auto& entry) {
+      return entry.first > stamp && entry.first - stamp <= kNear;
+    });
+  }
+
+  template <typename Condition>
+  void drop_seconds(Condition condition) {
+    seconds_.erase(
+        std::remove_if(seconds_.begin(), seconds_.end(),
+                       [&condition](const auto& entry) { return condition(entry.first); }),
+        seconds_.end());
   }
 
   prf_core::Duration max_wait_;
-  Stream<First> firsts_;
-  Stream<Second> seconds_;
+  prf_core::ClockMonitor clock_;
+  std::deque<std::pair<prf_core::Stamp, First>> firsts_;
+  Seconds seconds_;
 };
 
 }  // namespace prf_perception
