@@ -15,7 +15,10 @@ constexpr double kLeastSlope = 0.2;  // of the radial distortion within the imag
 constexpr double kLargestTangential = 0.1;
 constexpr double kLargestRadial = 10.0;
 constexpr int kLargestImage = 4096;  // px
-constexpr double kMargin = 1.1;      // of the image's corners
+// Focal length over the larger side: from a view of 157 degrees to one of 0.6 degrees.
+constexpr double kShortest = 0.1;
+constexpr double kLongest = 100.0;
+constexpr double kMargin = 1.1;  // of the image's corners
 constexpr int kNewtonSteps = 12;
 constexpr double kConverged = 1e-16;  // squared; one more step squares the error
 
@@ -44,10 +47,11 @@ bool reaches_the_corners(const PinholeCamera& camera) {
 void PinholeCamera::validate() const {
   prf_core::require_between("width", width, 1, kLargestImage, "px");
   prf_core::require_between("height", height, 1, kLargestImage, "px");
-  prf_core::require(fx > 0.0 && std::isfinite(fx), "fx", fx, "finite and > 0 px");
-  prf_core::require(fy > 0.0 && std::isfinite(fy), "fy", fy, "finite and > 0 px");
-  prf_core::require_finite("cx", cx);
-  prf_core::require_finite("cy", cy);
+  const double side = std::max(width, height);
+  prf_core::require_between("fx", fx, kShortest * side, kLongest * side, "px");
+  prf_core::require_between("fy", fy, kShortest * side, kLongest * side, "px");
+  prf_core::require_between("cx", cx, -1.0 * width, 2.0 * width, "px");
+  prf_core::require_between("cy", cy, -1.0 * height, 2.0 * height, "px");
   for (std::size_t i = 0; i < distortion.size(); ++i) {
     const double largest = i == 2 || i == 3 ? kLargestTangential : kLargestRadial;
     prf_core::require_between("distortion[" + std::to_string(i) + "]", distortion[i], -largest,

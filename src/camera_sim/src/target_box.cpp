@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <prf_core/require.hpp>
+#include <string>
 
 namespace camera_sim {
 namespace {
@@ -14,6 +15,7 @@ Cuboid cuboid_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
   return cuboid;
 }
 
+constexpr double kFarthest = 10.0;                     // m
 const Eigen::Vector3d kDeckSize(2.4, 1.8, 0.1);        // m
 const Eigen::Vector3d kChassisSize(0.45, 0.50, 0.12);  // m
 const Eigen::Vector3d kChassisCentre(0.86, 0.0, 0.14);
@@ -24,14 +26,16 @@ Cuboid deck() { return cuboid_at({0.0, 0.0, -0.5 * kDeckSize.z()}, kDeckSize); }
 Cuboid cart_chassis() { return cuboid_at(kChassisCentre, kChassisSize); }
 
 void TargetBox::validate() const {
-  prf_core::require(tag_position_in_platform.allFinite(), "target.tag_position_in_platform",
-                    tag_position_in_platform.transpose(), "finite");
-  prf_core::require_finite("target.yaw", yaw);
-  prf_core::require_positive("target.tag_size", tag_size, "m");
-  prf_core::require_positive("target.inner_width", inner_width, "m");
-  prf_core::require_positive("target.inner_depth", inner_depth, "m");
-  prf_core::require_positive("target.wall_thickness", wall_thickness, "m");
-  prf_core::require_positive("target.post_width", post_width, "m");
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    prf_core::require_between("target.tag_position_in_platform[" + std::to_string(i) + "]",
+                              tag_position_in_platform[i], -kFarthest, kFarthest, "m");
+  }
+  prf_core::require_between("target.yaw", yaw, -2.0 * M_PI, 2.0 * M_PI, "rad");
+  prf_core::require_between("target.tag_size", tag_size, 0.005, 5.0, "m");
+  prf_core::require_between("target.inner_width", inner_width, 0.005, kFarthest, "m");
+  prf_core::require_between("target.inner_depth", inner_depth, 0.005, kFarthest, "m");
+  prf_core::require_between("target.wall_thickness", wall_thickness, 0.0005, 0.5, "m");
+  prf_core::require_between("target.post_width", post_width, 0.001, kFarthest, "m");
   const double reach = std::abs(tag_above_box_centre) + 0.5 * tag_size;
   prf_core::require(reach <= 0.5 * inner_width, "target.tag_above_box_centre", tag_above_box_centre,
                     "so that the tag is on the back wall");

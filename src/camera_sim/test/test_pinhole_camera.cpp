@@ -66,5 +66,23 @@ TEST(PinholeCamera, RefusesALensThatFoldsTheImage) {
                std::invalid_argument);
 }
 
+// Fault 44, A9: focal length or axis that no camera has -> refused, at once
+TEST(PinholeCamera, RefusesNumbersThatNoCameraHas) {
+  ASSERT_NO_THROW(PinholeCamera().validate());
+  for (double PinholeCamera::*const field :
+       {&PinholeCamera::fx, &PinholeCamera::fy, &PinholeCamera::cx, &PinholeCamera::cy}) {
+    for (const double value : {std::nan(""), 1e308, -1e308, 1e9, -1e9}) {
+      PinholeCamera camera = with_distortion(kMild);
+      camera.*field = value;
+      EXPECT_THROW(camera.validate(), std::invalid_argument) << value;
+    }
+  }
+  for (const double value : {5e-324, 1e-6, 0.0, -615.0}) {
+    PinholeCamera camera = with_distortion(kMild);
+    camera.fx = value;
+    EXPECT_THROW(camera.validate(), std::invalid_argument) << value;
+  }
+}
+
 }  // namespace
 }  // namespace camera_sim

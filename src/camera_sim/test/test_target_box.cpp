@@ -82,6 +82,7 @@ TEST(TargetBox, StandsOnTheChassisOfACart) {
   EXPECT_GT(cart_chassis().pose_in_platform.translation().z() - 0.5 * cart_chassis().size.z(), 0.0);
 }
 
+// Fault 43, A9: sizes and places NaN, 1e308 or 5e-324 -> refused
 TEST(TargetBox, RefusesImpossibleSizes) {
   const std::vector<std::function<void(TargetBox&)>> faults{
       [](TargetBox& box) { box.tag_size = 0.0; },
@@ -93,6 +94,12 @@ TEST(TargetBox, RefusesImpossibleSizes) {
       [](TargetBox& box) { box.tag_above_box_centre = 0.11; },
       [](TargetBox& box) { box.tag_position_in_platform.z() = 0.1; },
       [](TargetBox& box) { box.tag_position_in_platform.x() = std::nan(""); },
+      [](TargetBox& box) { box.tag_position_in_platform.y() = 1e308; },
+      [](TargetBox& box) { box.yaw = 1e308; },
+      [](TargetBox& box) { box.tag_size = 5e-324; },
+      [](TargetBox& box) { box.tag_above_box_centre = std::nan(""); },
+      [](TargetBox& box) { box.inner_depth = 1e308; },
+      [](TargetBox& box) { box.wall_thickness = 5e-324; },
   };
   EXPECT_NO_THROW(TargetBox().validate());
   for (std::size_t i = 0; i < faults.size(); ++i) {

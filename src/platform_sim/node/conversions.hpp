@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <opencv2/core/mat.hpp>
+#include <prf_core/quoted.hpp>
+#include <prf_core/require.hpp>
 #include <prf_ros/conversions.hpp>
 #include <stdexcept>
 #include <string>
@@ -107,6 +109,12 @@ inline sensor_msgs::CameraInfo to_camera_info(const camera_sim::PinholeCamera& c
   return message;
 }
 
+// Far beyond what an arm, or a hand that guides it, can do.
+constexpr double kLargestPosition = 100.0;  // rad; a joint without limits may have turned often
+constexpr double kLargestVelocity = 20.0;   // rad/s
+constexpr double kLargestForce = 1000.0;    // N
+constexpr double kLargestTorque = 1000.0;   // Nm
+
 struct ArmCommand {
   ArmVector positions = ArmVector::Zero();   // rad
   ArmVector velocities = ArmVector::Zero();  // rad/s
@@ -131,8 +139,13 @@ inline ArmCommand to_arm_command(const trajectory_msgs::JointTrajectory& message
     command.positions[i] = message.points[0].positions[index];
     command.velocities[i] = message.points[0].velocities[index];
   }
-  if (!command.positions.allFinite()) throw std::invalid_argument("a position is not finite");
-  if (!command.velocities.allFinite()) throw std::invalid_argument("a velocity is not finite");
+  for (int i = 0; i < 7; ++i) {
+    const std::string joint = " of joint " + std::to_string(i + 1);
+    prf_core::require_between("position" + joint, command.positions[i], -kLargestPosition,
+                              kLargestPosition, "rad");
+    prf_core::require_between("velocity" + joint, command.velocities[i], -kLargestVelocity,
+                              kLargestVelocity, "rad/s");
+  }
   return command;
 }
 
@@ -144,12 +157,15 @@ struct HandWrench {
 // Throws std::invalid_argument that says why the wrench is refused.
 inline HandWrench to_hand_wrench(const geometry_msgs::WrenchStamped& message) {
   if (message.header.frame_id != "world") {
-    throw std::invalid_argument("frame_id = '" + message.header.frame_id + "', must be world");
+    throw std::invalid_argument("frame_id = " + prf_core::quoted(message.header.frame_id) +
+                                ", must be world");
   }
   const HandWrench wrench{prf_ros::to_core(message.wrench.force),
                           prf_ros::to_core(message.wrench.torque)};
-  if (!wrench.force.allFinite()) throw std::invalid_argument("the force is not finite");
-  if (!wrench.torque.allFinite()) throw std::invalid_argument("the torque is not finite");
+  for (int i = 0; i < 3; ++i) {
+    prf_core::require_between("force", wrench.force[i], -kLargestForce, kLargestForce, "N");
+    prf_core::require_between("torque", wrench.torque[i], -kLargestTorque, kLargestTorque, "Nm");
+  }
   return wrench;
 }
 

@@ -43,7 +43,9 @@ void SimParams::validate() const {
   }
   prf_core::require_between("response_timeout", response_timeout, 0.1, 3600.0, "s");
   prf_core::require_between("patience", patience, 0.0, response_timeout, "s");
-  prf_core::require_between("real_time_factor", real_time_factor, 0.0, 1000.0);
+  if (real_time_factor != 0.0) {
+    prf_core::require_between("real_time_factor", real_time_factor, 0.001, 1000.0);
+  }
   prf_core::require_between("time_limit", time_limit, 0.01, 86400.0, "s");
   prf_core::require_between("end_delay", end_delay, 0.0, 86400.0, "s");
   try {

@@ -85,10 +85,12 @@ void SimPublishers::publish_diagnostics(std::int64_t now_ms, double real_time_fa
   diagnostic_msgs::DiagnosticArray message;
   message.header = header_at(now_ms, "");
   diagnostic_msgs::DiagnosticStatus& status = message.status.emplace_back();
-  status.level = refused == 0 ? diagnostic_msgs::DiagnosticStatus::OK
-                              : diagnostic_msgs::DiagnosticStatus::WARN;
+  status.level = refused == 0 && unanswered == 0 ? diagnostic_msgs::DiagnosticStatus::OK
+                                                 : diagnostic_msgs::DiagnosticStatus::WARN;
   status.name = "platform_sim: lockstep";
-  status.message = refused == 0 ? "running" : "commands were refused";
+  status.message = refused != 0      ? "commands were refused"
+                   : unanswered != 0 ? "went on without responses"
+                                     : "running";
   status.values = {entry("real_time_factor", real_time_factor),
                    entry("ticks_per_wall_second", ticks_per_second),
                    entry("refused_commands", refused), entry("ticks_without_response", unanswered)};

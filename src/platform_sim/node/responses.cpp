@@ -11,39 +11,47 @@ namespace platform_sim {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;
-constexpr unsigned kWarnEvery = 100;  // refusals; a second of them
-
-const auto kNoDelay = ros::TransportHints().tcpNoDelay();
 
 }  // namespace
 
+// A response may be silent: in real time nobody need be there, in lockstep the simulator tells.
+prf_ros::InputExpectation expectation(Response response, const std::string& what) {
+  return {topic_name(response), what, 0.0, prf_ros::Presence::kOnDemand};
+}
+
 template <class Message>
-void Responses::listen(ros::NodeHandle& node, Response response,
+void Responses::listen(Response response, const std::string& what,
                        void (Responses::*receive)(const Message&)) {
-  subscribers_.push_back(node.subscribe(topic_name(response), kQueueSize, receive, this, kNoDelay));
+  inputs_.subscribe<Message>(expectation(response, what), kQueueSize,
+                             [this, receive](const boost::shared_ptr<const Message>& message) {
+                               (this->*receive)(*message);
+                             });
 }
 
 template <class Message>
-void Responses::note(ros::NodeHandle& node, Response response) {
-  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-      [this, response](const boost::shared_ptr<const Message>& message) {
-        lockstep_.received(response, prf_ros::to_core(message->header.stamp));
-      };
-  subscribers_.push_back(node.subscribe<Message>(topic_name(response), kQueueSize, callback,
-                                                 ros::VoidConstPtr(), kNoDelay));
+void Responses::note(Response response, const std::string& what) {
+  inputs_.subscribe<Message>(expectation(response, what), kQueueSize,
+                             [this, response](const boost::shared_ptr<const Message>& message) {
+                               take(response, message->header.stamp);
+                             });
 }
 
-Responses::Responses(ros::NodeHandle& node, Peer peer) : lockstep_(peer) {
+Responses::Responses(ros::NodeHandle& node, Peer peer) : lockstep_(peer), inputs_(node, &updater_) {
+  updater_.setHardwareID("none");
+  updater_.add("responses", this, &Responses::diagnose);
   if (peer == Peer::kGuide) {
-    listen(node, Response::kWrench, &Responses::receive_wrench);
+    listen(Response::kWrench, "geometry_msgs/WrenchStamped in world", &Responses::receive_wrench);
     return;
   }
-  note<prf_msgs::TagDetectionArray>(node, Response::kDetections);
-  note<prf_msgs::TargetForecast>(node, Response::kForecast);
-  listen(node, Response::kProgress, &Responses::receive_progress);
-  note<prf_msgs::SkillTrajectory>(node, Response::kTrajectory);
-  note<trajectory_msgs::MultiDOFJointTrajectory>(node, Response::kSetpoint);
-  listen(node, Response::kCommand, &Responses::receive_command);
+  note<prf_msgs::TagDetectionArray>(Response::kDetections, "prf_msgs/TagDetectionArray");
+  note<prf_msgs::TargetForecast>(Response::kForecast, "prf_msgs/TargetForecast");
+  listen(Response::kProgress, "prf_msgs/ExecutionProgress", &Responses::receive_progress);
+  note<prf_msgs::SkillTrajectory>(Response::kTrajectory, "prf_msgs/SkillTrajectory");
+  note<trajectory_msgs::MultiDOFJointTrajectory>(Response::kSetpoint,
+                                                 "trajectory_msgs/MultiDOFJointTrajectory");
+  listen(Response::kCommand,
+         "trajectory_msgs/JointTrajectory with j2s7s300_joint_1 ... j2s7s300_joint_7",
+         &Responses::receive_command);
 }
 
 std::optional<ArmCommand> Responses::take_command() {
@@ -54,7 +62,7 @@ std::optional<HandWrench> Responses::take_wrench() { return std::exchange(wrench
 
 std::vector<std::string> Responses::without_publisher() const {
   std::vector<std::string> names;
-  for (const ros::Subscriber& subscriber : subscribers_) {
+  for (const ros::Subscriber& subscriber : inputs_.subscribers()) {
     if (subscriber.getNumPublishers() == 0) names.push_back(subscriber.getTopic());
   }
   return names;
@@ -62,19 +70,19 @@ std::vector<std::string> Responses::without_publisher() const {
 
 unsigned Responses::publishers() const {
   unsigned count = 0;
-  for (const ros::Subscriber& subscriber : subscribers_) count += subscriber.getNumPublishers();
+  for (const ros::Subscriber& subscriber : inputs_.subscribers())
+    count += subscriber.getNumPublishers();
   return count;
 }
 
 void Responses::receive_progress(const prf_msgs::ExecutionProgress& message) {
-  const prf_core::Stamp stamp = prf_ros::to_core(message.header.stamp);
-  if (!lockstep_.received_progress(stamp, prf_ros::to_core(message.forecast_stamp))) return;
+  if (!take(Response::kProgress, message.header.stamp, message.forecast_stamp)) return;
   finished_ = finished_ || message.state == prf_msgs::ExecutionProgress::DONE ||
               message.state == prf_msgs::ExecutionProgress::STOPPED;
 }
 
 void Responses::receive_command(const trajectory_msgs::JointTrajectory& message) {
-  if (!lockstep_.received(Response::kCommand, prf_ros::to_core(message.header.stamp))) return;
+  if (!take(Response::kCommand, message.header.stamp)) return;
   command_.reset();
   try {
     command_ = to_arm_command(message);
@@ -84,7 +92,7 @@ void Responses::receive_command(const trajectory_msgs::JointTrajectory& message)
 }
 
 void Responses::receive_wrench(const geometry_msgs::WrenchStamped& message) {
-  if (!lockstep_.received(Response::kWrench, prf_ros::to_core(message.header.stamp))) return;
+  if (!take(Response::kWrench, message.header.stamp)) return;
   wrench_ = HandWrench{};
   try {
     wrench_ = to_hand_wrench(message);
@@ -93,10 +101,33 @@ void Responses::receive_wrench(const geometry_msgs::WrenchStamped& message) {
   }
 }
 
+bool Responses::take(Response response, const ros::Time& stamp, const ros::Time& forecast_stamp) {
+  const prf_core::Stamp received = prf_ros::to_core(stamp);
+  const Receipt receipt =
+      response == Response::kProgress
+          ? lockstep_.received_progress(received, prf_ros::to_core(forecast_stamp))
+          : lockstep_.received(response, received);
+  if (receipt == Receipt::kNotNewer) {
+    inputs_.drop(topic_name(response), "it is late or has come before");
+  } else if (receipt == Receipt::kAhead) {
+    inputs_.drop(topic_name(response), "its stamp is ahead of everything published");
+  }
+  return receipt == Receipt::kTaken;
+}
+
 void Responses::refuse(Response response, const std::string& why) {
-  ROS_WARN_COND(refused_ % kWarnEvery == 0, "%s refused, the arm holds: %s (%u refused before)",
-                topic_name(response), why.c_str(), refused_);
   ++refused_;
+  inputs_.drop(topic_name(response), "it cannot be used");
+  if (refusals_.is_due()) {
+    ROS_WARN("%s refused, the arm holds: %s (%u so far)", topic_name(response), why.c_str(),
+             refused_);
+  }
+}
+
+void Responses::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "all responses are taken");
+  status.add("refused", refused_);
+  inputs_.report(status);
 }
 
 }  // namespace platform_sim

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <prf_msgs/ExecutionProgress.h>
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TagDetectionArray.h>
 #include <prf_msgs/TargetForecast.h>
 #include <ros/node_handle.h>
-#include <ros/subscriber.h>
 #include <trajectory_msgs/JointTrajectory.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
 #include <optional>
+#include <prf_ros/input_monitor.hpp>
+#include <prf_ros/wall_throttle.hpp>
 #include <string>
 #include <vector>
 
@@ -41,20 +43,26 @@ class Responses {
 
  private:
   template <class Message>
-  void listen(ros::NodeHandle& node, Response response, void (Responses::*receive)(const Message&));
+  void listen(Response response, const std::string& what,
+              void (Responses::*receive)(const Message&));
   template <class Message>
-  void note(ros::NodeHandle& node, Response response);
+  void note(Response response, const std::string& what);
   void receive_progress(const prf_msgs::ExecutionProgress& message);
   void receive_command(const trajectory_msgs::JointTrajectory& message);
   void receive_wrench(const geometry_msgs::WrenchStamped& message);
+  // Whether the lockstep takes a message of this stamp; it is dropped otherwise.
+  bool take(Response response, const ros::Time& stamp, const ros::Time& forecast_stamp = {});
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void refuse(Response response, const std::string& why);
 
   Lockstep lockstep_;
-  std::vector<ros::Subscriber> subscribers_;
   std::optional<ArmCommand> command_;
   std::optional<HandWrench> wrench_;
   bool finished_ = false;
   unsigned refused_ = 0;
+  prf_ros::WallThrottle refusals_;
+  diagnostic_updater::Updater updater_;
+  prf_ros::InputMonitor inputs_;
 };
 
 }  // namespace platform_sim

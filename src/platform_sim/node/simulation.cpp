@@ -16,6 +16,10 @@ namespace {
 constexpr std::int64_t kTickMs =
     10;                             // control period; the first tick is one period after the start
 constexpr double kFallDelay = 1.0;  // s
+// Nodes that were running before the clock went back drop the first ticks, so no response to these
+// is insisted on.
+constexpr std::int64_t kBeginMs = 100;
+constexpr double kBeginPatience = 2.0;       // s of wall time
 constexpr double kSettledConnections = 0.5;  // s of wall time without a new one
 constexpr double kReportPeriod = 1.0;        // s of wall time
 const ros::WallDuration kSpin(0.01);
@@ -173,10 +177,13 @@ void Simulation::render(Image& image) {
 
 Simulation::End Simulation::wait_for_responses() {
   const ros::WallTime begin = ros::WallTime::now();
+  double patience = params_.patience;
+  if (patience == 0.0 && now_ms_ <= kBeginMs) patience = kBeginPatience;
+  if (patience == 0.0 && now_ms_ == kBeginMs + kTickMs) responses_.lockstep().insist();
   spin(ros::WallDuration(0.0));
   while (params_.lockstep && !responses_.lockstep().is_complete()) {
     if (!ros::ok()) return End::kInterrupted;
-    if (params_.patience > 0.0 && seconds_since(begin) > params_.patience) go_on();
+    if (patience > 0.0 && seconds_since(begin) > patience) go_on(patience);
     if (seconds_since(begin) > params_.response_timeout) {
       const SilentTopic silent = *responses_.lockstep().first_silent();
       ROS_FATAL(
@@ -188,21 +195,21 @@ Simulation::End Simulation::wait_for_responses() {
     spin(kSpin);
   }
   if (params_.lockstep && responses_.lockstep().goes_without()) {
-    ++unanswered_;
+    if (now_ms_ > kBeginMs) ++unanswered_;
     while (seconds_since(begin) < seconds(kTickMs) && ros::ok()) spin(ros::WallDuration(0.001));
   }
   waiting_ += ros::WallTime::now() - begin;
   return ros::ok() ? End::kEnded : End::kInterrupted;
 }
 
-void Simulation::go_on() {
+void Simulation::go_on(double patience) {
   std::vector<std::string> names;
   for (const Response response : responses_.lockstep().go_on()) {
     names.emplace_back(topic_name(response));
   }
-  if (names.empty()) return;
-  ROS_WARN_THROTTLE(1.0, "tick %.3f s: goes on without %s after %.2f s of wall time",
-                    seconds(now_ms_), joined(names).c_str(), params_.patience);
+  if (names.empty() || !going_on_.is_due()) return;
+  ROS_WARN("tick %.3f s: goes on without %s after %.2f s of wall time", seconds(now_ms_),
+           joined(names).c_str(), patience);
 }
 
 void Simulation::apply_responses() {

@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <optional>
+#include <prf_ros/wall_throttle.hpp>
 #include <string>
 
 #include "camera_sim/camera_schedule.hpp"
@@ -42,7 +43,7 @@ class Simulation {
   void simulate_tick();
   void publish_tick();
   void render(Image& image);
-  void go_on();
+  void go_on(double patience);
   void apply_responses();
   void keep_pace();
   [[nodiscard]] bool at_end();
@@ -65,6 +66,7 @@ class Simulation {
   ros::WallTime begin_, last_report_;
   std::int64_t last_report_ms_ = 0;
   unsigned unanswered_ = 0;  // ticks
+  prf_ros::WallThrottle going_on_;
   ros::WallDuration physics_, rendering_, waiting_;
 };
 

@@ -34,34 +34,44 @@ const char* topic_name(Response response) {
   return "";
 }
 
+void Lockstep::published(prf_core::Stamp stamp) {
+  newest_ = std::max(stamp, newest_.value_or(stamp));
+}
+
+bool Lockstep::is_ahead(prf_core::Stamp stamp) const { return !newest_ || stamp > *newest_; }
+
 void Lockstep::published_image(prf_core::Stamp exposure) {
+  published(exposure);
   expect(Response::kDetections, exposure);
 }
 
 void Lockstep::published_joint_states(prf_core::Stamp tick) {
+  published(tick);
   expect(Response::kWrench, tick);
   expect(Response::kProgress, tick);
   expect(Response::kSetpoint, tick);
   expect(Response::kCommand, tick);
 }
 
-bool Lockstep::received(Response response, prf_core::Stamp stamp) {
+Receipt Lockstep::received(Response response, prf_core::Stamp stamp) {
+  if (is_ahead(stamp)) return Receipt::kAhead;
   Expected& from = expected(response);
-  if (from.last_received && stamp <= *from.last_received) return false;
+  if (from.last_received && stamp <= *from.last_received) return Receipt::kNotNewer;
   from.last_received = stamp;
   from.given_up = false;
   while (!from.pending.empty() && from.pending.front() <= stamp) from.pending.pop_front();
   if (response == Response::kDetections) expect(Response::kForecast, stamp);
-  return true;
+  return Receipt::kTaken;
 }
 
-bool Lockstep::received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp) {
-  if (!received(Response::kProgress, stamp)) return false;
-  if (forecast_stamp != prf_core::Stamp{0} && forecast_stamp != forecast_in_force_) {
+Receipt Lockstep::received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp) {
+  const Receipt receipt = received(Response::kProgress, stamp);
+  const bool names_a_forecast = forecast_stamp != prf_core::Stamp{0} && !is_ahead(forecast_stamp);
+  if (receipt == Receipt::kTaken && names_a_forecast && forecast_stamp != forecast_in_force_) {
     forecast_in_force_ = forecast_stamp;
     expect(Response::kTrajectory, stamp);
   }
-  return true;
+  return receipt;
 }
 
 bool Lockstep::is_waited_for(Response response) const {
@@ -81,6 +91,10 @@ std::vector<Response> Lockstep::go_on() {
     missing.push_back(response);
   }
   return missing;
+}
+
+void Lockstep::insist() {
+  for (Expected& of : expected_) of.given_up = false;
 }
 
 bool Lockstep::goes_without() const {

@@ -58,7 +58,8 @@ void WorldParams::validate() const {
   prf_core::require_between("servo_gain", servo_gain, 0.1, 200.0, "1/s");
   prf_core::require_between("arm_latency", arm_latency, 0.0, 0.2, "s");
   for (int i = 0; i < arm_start.size(); ++i) {
-    prf_core::require_finite("arm_start[" + std::to_string(i) + "]", arm_start[i]);
+    prf_core::require_between("arm_start[" + std::to_string(i) + "]", arm_start[i], -7.0, 7.0,
+                              "rad");
   }
   placed_target().validate();
 }

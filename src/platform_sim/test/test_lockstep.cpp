@@ -37,8 +37,8 @@ TEST(Lockstep, DoesNotTakeAnOldResponseForTheTick) {
   lockstep.published_joint_states(10 * kMs);
   respond_to_tick(lockstep, 10 * kMs, kNone);
   lockstep.published_joint_states(20 * kMs);
-  EXPECT_FALSE(lockstep.received(Response::kCommand, 10 * kMs));
-  EXPECT_FALSE(lockstep.received_progress(10 * kMs, kNone));
+  EXPECT_EQ(lockstep.received(Response::kCommand, 10 * kMs), Receipt::kNotNewer);
+  EXPECT_EQ(lockstep.received_progress(10 * kMs, kNone), Receipt::kNotNewer);
   EXPECT_FALSE(lockstep.is_complete());
   respond_to_tick(lockstep, 20 * kMs, kNone);
   EXPECT_TRUE(lockstep.is_complete());
@@ -110,11 +110,68 @@ TEST(Lockstep, AsksForATrajectoryOncePerForecast) {
 
 TEST(Lockstep, AcceptsAResponseThatArrivesBeforeItIsExpected) {
   Lockstep lockstep(Peer::kFramework);
+  lockstep.published_image(10 * kMs);
+  lockstep.published_joint_states(50 * kMs);
   lockstep.received(Response::kForecast, 10 * kMs);
   lockstep.received(Response::kDetections, 10 * kMs);
   lockstep.received(Response::kTrajectory, 50 * kMs);
   lockstep.received_progress(50 * kMs, 10 * kMs);
+  lockstep.received(Response::kSetpoint, 50 * kMs);
+  lockstep.received(Response::kCommand, 50 * kMs);
   EXPECT_FALSE(lockstep.first_silent());
+}
+
+// Fault 10, A7: any response stamped far ahead -> dropped; the ones after it count as before
+TEST(Lockstep, IsNotWedgedByAResponseToWhatWasNeverPublished) {
+  Lockstep framework(Peer::kFramework);
+  Lockstep guide(Peer::kGuide);
+  for (Lockstep* lockstep : {&framework, &guide}) {
+    EXPECT_EQ(lockstep->received(Response::kCommand, 10 * kMs), Receipt::kAhead) << "nothing yet";
+    lockstep->published_image(5 * kMs);
+    lockstep->published_joint_states(10 * kMs);
+    for (const prf_core::Stamp wrong : {11 * kMs, 1010 * kMs, prf_core::Stamp::max()}) {
+      for (const Response response :
+           {Response::kDetections, Response::kForecast, Response::kTrajectory, Response::kSetpoint,
+            Response::kCommand, Response::kWrench}) {
+        EXPECT_EQ(lockstep->received(response, wrong), Receipt::kAhead);
+      }
+      EXPECT_EQ(lockstep->received_progress(wrong, kNone), Receipt::kAhead);
+    }
+    EXPECT_FALSE(lockstep->is_complete());
+  }
+  EXPECT_EQ(framework.received(Response::kDetections, 5 * kMs), Receipt::kTaken);
+  EXPECT_EQ(framework.received(Response::kForecast, 5 * kMs), Receipt::kTaken);
+  respond_to_tick(framework, 10 * kMs, kNone);
+  EXPECT_FALSE(framework.first_silent());
+  EXPECT_EQ(guide.received(Response::kWrench, 10 * kMs), Receipt::kTaken);
+  EXPECT_TRUE(guide.is_complete());
+}
+
+// Fault 42, A7: progress names a forecast of the far future -> no trajectory of it is waited for
+TEST(Lockstep, AsksForNoTrajectoryOfAForecastThatCannotBe) {
+  Lockstep lockstep(Peer::kFramework);
+  lockstep.published_joint_states(10 * kMs);
+  respond_to_tick(lockstep, 10 * kMs, prf_core::Stamp::max());
+  EXPECT_FALSE(lockstep.first_silent());
+}
+
+// Fault 11, 26: ticks without response at the start or from a killed node -> waited for again later
+TEST(Lockstep, WaitsAgainForWhatItGaveUp) {
+  Lockstep lockstep(Peer::kFramework);
+  lockstep.published_joint_states(10 * kMs);
+  EXPECT_EQ(lockstep.go_on(), (std::vector{Response::kProgress, Response::kCommand}));
+  EXPECT_TRUE(lockstep.is_complete());
+  lockstep.published_joint_states(20 * kMs);
+  EXPECT_TRUE(lockstep.is_complete() && lockstep.goes_without());
+  lockstep.received_progress(20 * kMs, kNone);
+  lockstep.published_joint_states(30 * kMs);
+  EXPECT_FALSE(lockstep.is_complete()) << "progress is heard again";
+  lockstep.received_progress(30 * kMs, kNone);
+  EXPECT_TRUE(lockstep.is_complete());
+  lockstep.insist();
+  EXPECT_FALSE(lockstep.is_complete() || lockstep.goes_without());
+  lockstep.received(Response::kCommand, 30 * kMs);
+  EXPECT_TRUE(lockstep.is_complete());
 }
 
 TEST(Lockstep, NamesTheOldestImageWithoutResponse) {

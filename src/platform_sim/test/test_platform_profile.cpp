@@ -100,6 +100,25 @@ TEST(PlatformProfile, RefusesMotionBeyondATreadmillAndNamesAxisValueAndBound) {
   }
 }
 
+// Fault 43, A9: amplitudes, rates, phases, lags beyond physical bounds -> refused by name
+TEST(PlatformProfile, RefusesNumbersThatNoMotionHas) {
+  for (const std::string number : {".nan", ".inf", "1e308", "-1e308", "1e5"}) {
+    for (const std::string name : {"amplitude", "rate", "phase"}) {
+      std::string sine = "amplitude: 0, rate: 1, phase: 0";
+      const std::size_t at = sine.find(name) + name.size() + 2;
+      sine.replace(at, 1, number);
+      const std::string said = complaint_about("sway: {sines: [{" + sine + "}]}", ".yaml");
+      EXPECT_NE(said.find("sway " + name), std::string::npos) << number << " -> " << said;
+    }
+    const std::string said = complaint_about("sway: {lag: " + number + ", sines: []}", ".yaml");
+    EXPECT_NE(said.find("sway lag"), std::string::npos) << said;
+  }
+  std::string many;
+  for (int i = 0; i <= 1000; ++i) many += "{amplitude: 0, rate: 1, phase: 0}, ";
+  EXPECT_NE(complaint_about("sway: {sines: [" + many + "]}", ".yaml").find("at most 1000"),
+            std::string::npos);
+}
+
 TEST(PlatformProfile, RefusesFilesThatItCannotRead) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"swing: {sines: []}", "no key 'swing'"},

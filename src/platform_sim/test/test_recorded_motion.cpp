@@ -74,6 +74,27 @@ TEST(RecordedMotion, TellsItsExtremes) {
   EXPECT_NEAR(most.acceleration[0], 4.0, 0.1);
 }
 
+// Fault 43, A9: values or steps of time beyond physical bounds, endless files -> refused with row
+TEST(RecordedMotion, RefusesWhatNoRecordingHolds) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"time,a\n0,1\n0.5,1e308\n1,1\n2,1\n", "line 3: a = 1e308"},
+      {"time,a\n0,1\n0.5,-1e5\n1,1\n2,1\n", "line 3: a = -1e5"},
+      {"time,a\n0,1\n0.5,5e-324\n1,1\n2,1\n", "line 3: a = '5e-324'"},
+      {"time,a\n0,1\n1e-9,1\n1,1\n2,1\n", "line 3: time = 1e-9, must be 0.0001 .. 60 s after"},
+      {"time,a\n0,1\n0.5,1\n100,1\n200,1\n", "line 4: time = 100, must be 0.0001 .. 60 s after"},
+      {"time,a\n1e300,1\n2e300,1\n3e300,1\n4e300,1\n", "line 2: time = 1e300"},
+  };
+  for (const auto& [text, complaint] : faults) {
+    const TemporaryFile file(text, ".csv");
+    const std::string said = refusal([&] { RecordedMotion motion(file.path()); });
+    EXPECT_NE(said.find(complaint), std::string::npos) << said;
+  }
+  for (const std::string path : {"/dev/zero", "/tmp"}) {
+    EXPECT_NE(refusal([&] { RecordedMotion motion(path); }).find("must be a file"),
+              std::string::npos);
+  }
+}
+
 TEST(RecordedMotion, RefusesBadFilesAndSaysWhere) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"time,a\n0,1\n0.5,nan\n1,1\n2,1\n", "line 3: a = 'nan', must be a finite number"},

@@ -135,6 +135,8 @@ TEST(World, SlipsWhenTheDeckIsTooSmooth) {
 }
 
 // The criterion is that of the judge: 0.35 m, 30 degrees, or body and platform in contact.
+// Fault 36: robot falls (low, tilted or lying) -> the run ends a second later, with time and cause
+// in the log
 TEST(World, HasFallenFromTheFirstStepBeyondTheCriterion) {
   WorldParams config = folded_arm();
   config.arm_mode = ArmMode::kCompliant;
@@ -192,6 +194,7 @@ TEST(World, SeedChangesTheMotionOfThePlatform) {
   EXPECT_FALSE(first.platform().pose.isApprox(second.platform().pose, 1e-6));
 }
 
+// Fault 28, A9: world parameters NaN or beyond physical bounds -> refused
 TEST(World, RefusesBadConfigurations) {
   const double nan = std::nan("");
   const std::vector<std::function<void(WorldParams&)>> faults{

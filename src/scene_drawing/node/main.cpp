@@ -10,7 +10,11 @@
 
 #include <map>
 #include <optional>
+#include <prf_core/clock_monitor.hpp>
 #include <prf_ros/conversions.hpp>
+#include <prf_ros/private_parameters.hpp>
+#include <prf_ros/wall_throttle.hpp>
+#include <stdexcept>
 
 #include "camera_sim/target_box.hpp"
 
@@ -20,7 +24,8 @@ namespace {
 namespace topics = prf_msgs::topics;
 namespace truth = prf_msgs::ground_truth_topics;
 
-constexpr int kEvery = 5;  // ticks: 20 Hz
+constexpr int kEvery = 5;                // ticks: 20 Hz
+constexpr std::size_t kMostTicks = 100;  // that wait for all their parts
 
 class SceneMarkers {
  public:
@@ -40,22 +45,37 @@ class SceneMarkers {
   void on_odometry(const nav_msgs::OdometryConstPtr& message) {
     const bool is_base = message->child_frame_id == "base_link";
     if (!is_base) target_.on_cart = message->child_frame_id == "floor";
-    Tick& tick = ticks_[message->header.stamp];
-    (is_base ? tick.base : tick.platform) = prf_ros::to_core(message->pose.pose).isometry();
-    show(message->header.stamp);
+    take(message->header.stamp, message->pose.pose, is_base ? &Tick::base : &Tick::platform);
   }
 
   void on_tag(const geometry_msgs::PoseStampedConstPtr& message) {
-    ticks_[message->header.stamp].tag = prf_ros::to_core(message->pose).isometry();
-    show(message->header.stamp);
+    take(message->header.stamp, message->pose, &Tick::tag);
+  }
+
+  void take(const ros::Time& stamp, const geometry_msgs::Pose& message,
+            std::optional<Eigen::Isometry3d> Tick::*part) {
+    const prf_core::Pose pose = prf_ros::to_core(message);
+    try {
+      prf_core::require_pose("pose", pose);
+    } catch (const std::invalid_argument& error) {
+      if (refusals_.is_due()) ROS_WARN("a pose of the ground truth is dropped: %s", error.what());
+      return;
+    }
+    ticks_[stamp].*part = pose.isometry();
+    while (ticks_.size() > kMostTicks) ticks_.erase(ticks_.begin());
+    show(stamp);
   }
 
   void show(const ros::Time& stamp) {
     const Tick tick = ticks_[stamp];
     if (!tick.platform || !tick.base || !tick.tag) return;
-    ticks_.erase(ticks_.begin(), ticks_.upper_bound(stamp));
-    if (stamp < last_) known_ = false;  // a new run
-    last_ = stamp;
+    ticks_.erase(stamp);
+    const prf_core::StampOrder order = clock_.observe(prf_ros::to_core(stamp));
+    if (!prf_core::is_accepted(order)) return;
+    if (order == prf_core::StampOrder::kBackwardJump) {  // a new run
+      known_ = false;
+      ticks_.clear();
+    }
     // What carries the box starts where the platform is.
     if (!known_) target_.place_tag(tick.platform->inverse() * *tick.tag);
     known_ = true;
@@ -101,7 +121,8 @@ class SceneMarkers {
 
   camera_sim::TargetBox target_;
   std::map<ros::Time, Tick> ticks_;
-  ros::Time last_;
+  prf_core::ClockMonitor clock_;
+  prf_ros::WallThrottle refusals_;
   bool known_ = false;
   std::size_t count_ = 0;
   ros::Publisher publisher_;
@@ -113,6 +134,8 @@ class SceneMarkers {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "scene_markers");
-  const scene_drawing::SceneMarkers markers{ros::NodeHandle()};
-  ros::spin();
+  return prf_ros::run([] {
+    const scene_drawing::SceneMarkers markers{ros::NodeHandle()};
+    ros::spin();
+  });
 }

@@ -9,8 +9,10 @@
 // names a new forecast calls for a skill trajectory. While a hand guides the arm, joint_states
 // calls for guide/wrench only. When the simulator stands still, the pending response with the
 // oldest stamp is the cause; among equal stamps, the one that comes first in the chain.
-// A simulator that injects faults goes on without a response that does not come (go_on()), as a
-// real robot would; a topic given up in this way is waited for again as soon as it is heard.
+// The simulator can go on without a response that does not come (go_on()), as a real robot would:
+// in the first ticks, which nodes that have been running before drop until they are sure that the
+// clock went back, and when it injects faults. A topic given up in this way is waited for again as
+// soon as it is heard, or when the simulator insists.
 #pragma once
 
 #include <array>
@@ -42,6 +44,12 @@ struct SilentTopic {
   prf_core::Stamp stamp;  // of the pending response
 };
 
+enum class Receipt {
+  kTaken,
+  kNotNewer,  // late, or doubled
+  kAhead,     // nothing of this stamp or a later one has been published: no response
+};
+
 class Lockstep {
  public:
   explicit Lockstep(Peer peer) : peer_(peer) {}
@@ -50,10 +58,11 @@ class Lockstep {
   void published_image(prf_core::Stamp exposure);
   void published_joint_states(prf_core::Stamp tick);
 
-  // What came back. It settles every pending response of its topic with the same or an older stamp.
-  // False, and without effect, if it is not newer than what came before on its topic.
-  bool received(Response response, prf_core::Stamp stamp);
-  bool received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp);
+  // What came back. If taken it settles every pending response of its topic with the same or an
+  // older stamp, else it is without effect.
+  Receipt received(Response response, prf_core::Stamp stamp);
+  // A forecast_stamp ahead of everything published names no forecast.
+  Receipt received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp);
 
   // Whether the simulator may advance: no progress, command or wrench is pending. The other
   // responses are not waited for; they only serve first_silent().
@@ -61,6 +70,8 @@ class Lockstep {
 
   // Gives up the topics that is_complete() waits for. Returns them.
   std::vector<Response> go_on();
+  // Waits again for what was given up.
+  void insist();
   // Whether a topic is given up, and not yet heard again.
   [[nodiscard]] bool goes_without() const;
 
@@ -74,6 +85,8 @@ class Lockstep {
     bool given_up = false;
   };
 
+  void published(prf_core::Stamp stamp);
+  [[nodiscard]] bool is_ahead(prf_core::Stamp stamp) const;
   void expect(Response response, prf_core::Stamp stamp);
   Expected& expected(Response response) { return expected_[static_cast<std::size_t>(response)]; }
   [[nodiscard]] bool is_waited_for(Response response) const;
@@ -83,6 +96,7 @@ class Lockstep {
 
   Peer peer_;
   std::array<Expected, kResponseCount> expected_;
+  std::optional<prf_core::Stamp> newest_;  // that was published
   std::optional<prf_core::Stamp> forecast_in_force_;
 };
 

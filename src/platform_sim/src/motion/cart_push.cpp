@@ -15,12 +15,10 @@ constexpr std::uint64_t kStream = 0x63617274;  // keeps these draws apart from o
 }  // namespace
 
 CartPush::CartPush(const Params& params) : params_(params) {
-  prf_core::require(params.start >= 0.0 && std::isfinite(params.start), "push.start", params.start,
-                    "finite and >= 0 s");
-  prf_core::require(params.duration > 0.0 && std::isfinite(params.duration), "push.duration",
-                    params.duration, "finite and > 0 s");
+  prf_core::require_between("push.start", params.start, 0.0, 3600.0, "s");
+  prf_core::require_between("push.duration", params.duration, 0.01, 3600.0, "s");
   prf_core::require_between("push.distance", params.distance, 0.0, 1.0, "m");
-  prf_core::require_finite("push.heading", params.heading);
+  prf_core::require_between("push.heading", params.heading, -2.0 * kPi, 2.0 * kPi, "rad");
 }
 
 CartPush::Params CartPush::draw(std::uint64_t seed) {

@@ -11,14 +11,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "readable_file.hpp"
+
 namespace platform_sim {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTwoPi = 2.0 * 180.0 * kDegree;
-constexpr double kPitchLag = 0.42;     // s, of the real treadmill
-constexpr double kShortestLag = 0.01;  // s
-constexpr double kLongestLag = 10.0;   // s
+constexpr double kPitchLag = 0.42;          // s, of the real treadmill
+constexpr double kShortestLag = 0.01;       // s
+constexpr double kLongestLag = 10.0;        // s
+constexpr double kLargestAmplitude = 10.0;  // m or rad, before the bounds of bounds_of()
+constexpr double kFastestRate = 200.0;      // rad/s
+constexpr double kLargestPhase = 1000.0;    // rad
+constexpr std::size_t kMostSines = 1000;    // per axis
 
 PlatformProfile sway_and_pitch(const Sine& sway, const Sine& pitch, double pitch_lag) {
   PlatformProfile profile;
@@ -88,11 +94,13 @@ void require_sound(const std::string& name, const AxisProfile& axis) {
   if (axis.lag != 0.0) {
     prf_core::require_between(name + " lag", axis.lag, kShortestLag, kLongestLag, "s");
   }
+  prf_core::require(axis.sines.size() <= kMostSines, name + " sines", axis.sines.size(),
+                    "at most " + std::to_string(kMostSines));
   for (const Sine& sine : axis.sines) {
-    prf_core::require_finite(name + " amplitude", sine.amplitude);
-    prf_core::require_finite(name + " phase", sine.phase);
-    prf_core::require(sine.rate >= 0.0 && std::isfinite(sine.rate), name + " rate", sine.rate,
-                      "finite and >= 0 rad/s");
+    prf_core::require_between(name + " amplitude", sine.amplitude, -kLargestAmplitude,
+                              kLargestAmplitude);
+    prf_core::require_between(name + " phase", sine.phase, -kLargestPhase, kLargestPhase, "rad");
+    prf_core::require_between(name + " rate", sine.rate, 0.0, kFastestRate, "rad/s");
   }
 }
 
@@ -130,6 +138,7 @@ AxisProfile read_axis(const YAML::Node& node, const std::string& name) {
 }
 
 PlatformProfile read_yaml(const std::string& path) {
+  require_readable_file(path);
   const YAML::Node file = YAML::LoadFile(path);
   std::set<std::string> known(kAxisNames.begin(), kAxisNames.end());
   known.insert("base");

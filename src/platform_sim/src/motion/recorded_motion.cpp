@@ -8,12 +8,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "readable_file.hpp"
+
 namespace platform_sim {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurnDuration = 1.0;  // s, of the speed of playing from 0 to 1
 constexpr Eigen::Index kFewestRows = 4;
+// Beyond these the spline's second derivatives are numbers without meaning.
+constexpr double kLargestValue = 1e4;   // m or rad
+constexpr double kLatestTime = 1e10;    // s, the seconds since 1970 included
+constexpr double kShortestStep = 1e-4;  // s
+constexpr double kLongestStep = 60.0;   // s
 
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& what) {
   throw std::invalid_argument(path + ", line " + std::to_string(line) + ": " + what);
@@ -58,15 +65,29 @@ std::vector<double> read_row(const Table& table, const std::string& line, const 
       refuse(path, number, table.columns[i] + " = '" + words[i] + "', must be a finite number");
     }
   }
-  if (!table.rows.empty() && row[0] <= table.rows.back()[0]) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const double bound = i == 0 ? kLatestTime : kLargestValue;
+    if (std::abs(row[i]) > bound) {
+      refuse(path, number, table.columns[i] + " = " + words[i] + ", is beyond every bound");
+    }
+  }
+  if (table.rows.empty()) return row;
+  const double step = row[0] - table.rows.back()[0];
+  if (!(step > 0.0)) {
     refuse(path, number,
            "time = " + words[0] + ", must be above the row before's " +
+               std::to_string(table.rows.back()[0]));
+  }
+  if (step < kShortestStep || step > kLongestStep) {
+    refuse(path, number,
+           "time = " + words[0] + ", must be 0.0001 .. 60 s after the row before's " +
                std::to_string(table.rows.back()[0]));
   }
   return row;
 }
 
 Table read_table(const std::string& path) {
+  require_readable_file(path);
   std::ifstream file(path);
   if (!file) throw std::invalid_argument(path + " cannot be read");
   Table table;

@@ -82,7 +82,10 @@ class FakeFramework:
     """Responses each question of the simulator at once; some topics can be mute from some time on."""
 
     def __init__(self, mute=None, mute_from=0.0, absent=(), done_at=None, forecast=False,
-                 positions=None, guide=False):
+                 positions=None, guide=False, deaf_ticks=0, disturb=None):
+        """Drops the first `deaf_ticks`; `disturb` is called with this and each stamp before its
+        response, and returns whether it has responded itself."""
+        self.deaf_ticks, self.disturb = deaf_ticks, disturb
         self.mute, self.mute_from = mute, mute_from
         self.done_at, self.forecast = done_at, forecast
         self.positions = positions or config()["initial_positions"]
@@ -140,7 +143,17 @@ class FakeFramework:
         if name in self.publishers and not is_mute:
             self.publishers[name].publish(message)
 
+    def command(self, stamp):
+        command = JointTrajectory(joint_names=list(ARM))
+        command.header.stamp = stamp
+        command.points = [JointTrajectoryPoint(positions=list(self.positions), velocities=[0.0] * 7)]
+        return command
+
     def respond(self, stamp):
+        if len(self.messages["joint_states"]) <= self.deaf_ticks:
+            return
+        if self.disturb is not None and self.disturb(self, stamp):
+            return
         progress = ExecutionProgress()
         progress.header.stamp = stamp
         if self.forecast:
@@ -151,10 +164,7 @@ class FakeFramework:
         setpoint = MultiDOFJointTrajectory()
         setpoint.header.stamp = stamp
         self.say("execution/setpoint", setpoint)
-        command = JointTrajectory(joint_names=list(ARM))
-        command.header.stamp = stamp
-        command.points = [JointTrajectoryPoint(positions=self.positions, velocities=[0.0] * 7)]
-        self.say("joint_command", command)
+        self.say("joint_command", self.command(stamp))
         wrench = WrenchStamped()
         wrench.header.stamp, wrench.header.frame_id = stamp, "world"
         wrench.wrench.force.z = 5.0

@@ -3,9 +3,8 @@
 """The simulator node against a stand-in for the framework."""
 import math
 import os
-import re
+import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -13,8 +12,11 @@ import rospy
 import rostest
 from std_srvs.srv import Trigger
 
+from prf_msgs.msg import ExecutionProgress
+
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from fake_framework import ARM, NODE, FakeFramework, Simulator, config
+from fake_framework import ARM, INPUTS, NODE, FakeFramework, Simulator, config
+from parameter_cases import ParameterTest  # noqa: F401 - run as part of this module
 
 SHORT = {"time_limit": 0.5, "response_timeout": 5.0}
 
@@ -85,7 +87,7 @@ class LockstepTest(unittest.TestCase):
         with FakeFramework(positions=[float("nan")] * 7) as peer:
             code, output = peer.run(**SHORT)
         self.assertEqual(code, 0, output)
-        self.assertIn("joint_command refused, the arm holds: a position is not finite", output)
+        self.assertIn("joint_command refused, the arm holds: position of joint 1 = nan", output)
         for start, position in zip(config()["initial_positions"],
                                    peer.messages["joint_states"][-1].position[12:]):
             self.assertAlmostEqual(position, start, delta=0.005)
@@ -95,6 +97,70 @@ class LockstepTest(unittest.TestCase):
             code, output = Simulator(**SHORT).wait()
         self.assertEqual(code, 0, output)
         self.assertIn("joint_command refused", output)
+
+    # Fault 10, 40, 43, A7: responses far ahead, old, doubled, NaN, huge, foreign -> dropped, run goes on
+    def test_goes_on_after_wrong_responses(self):
+        target = list(config()["initial_positions"])
+        target[6] += 0.1
+
+        def disturb(peer, stamp):
+            tick = round(stamp.to_sec() * 100)
+            wrong = peer.command(stamp)
+            if tick in (20, 21):  # before the right one
+                wrong.header.stamp = rospy.Time(1000 if tick == 20 else 2 ** 32 - 1, 0)
+                progress = ExecutionProgress(header=wrong.header, state=ExecutionProgress.DONE)
+                progress.forecast_stamp = wrong.header.stamp
+                peer.say("execution/progress", progress)
+                for name in ("tag_detections", "target/forecast", "skill/trajectory",
+                             "execution/setpoint"):
+                    peer.say(name, INPUTS[name](header=wrong.header))
+            elif tick in (22, 23):
+                wrong.header.stamp = rospy.Time.from_sec(0.05 if tick == 22 else 0.22)
+            elif tick in (30, 31, 32, 33):  # instead of the right one
+                peer.say("execution/progress", ExecutionProgress(header=wrong.header))
+                point = wrong.points[0]
+                if tick == 30:
+                    point.positions[3] = math.nan
+                elif tick == 31:
+                    point.positions[3] = 1e300
+                elif tick == 32:
+                    point.velocities[3] = -1e300
+                else:
+                    wrong.joint_names = [f"panda_joint{i}" for i in range(1, 8)]
+            else:
+                return False
+            peer.say("joint_command", wrong)
+            return tick >= 30
+        with FakeFramework(positions=target, disturb=disturb) as peer:
+            code, output = peer.run(time_limit=1.0)
+        self.assertEqual(code, 0, output)
+        self.assertEqual(peer.stamps_ms("joint_states")[-1], 1000, "DONE of the far future")
+        self.assertAlmostEqual(peer.messages["joint_states"][-1].position[18], target[6], delta=0.005)
+        for words in ("ahead of everything published", "late or has come before",
+                      "joint_command refused, the arm holds: position of joint 4 = nan"):
+            self.assertIn(words, output)
+
+    # Fault 11: nodes drop the first ticks of a new run -> not insisted on, the run goes on
+    def test_does_not_insist_on_the_first_ticks(self):
+        with FakeFramework(deaf_ticks=2) as peer:
+            code, output = peer.run(**SHORT)
+        self.assertEqual(code, 0, output)
+        self.assertEqual(peer.stamps_ms("joint_states"), list(range(10, 501, 10)))
+        self.assertIn("goes on without execution/progress, joint_command", output)
+
+    # Fault 19, 40, A2: a second publisher of joint_command -> named; its copies are dropped
+    def test_names_a_second_publisher(self):
+        with FakeFramework() as peer:
+            node = subprocess.Popen(
+                ["rostopic", "pub", "-r", "20", "joint_command", "trajectory_msgs/JointTrajectory",
+                 "{header: {stamp: {secs: 0, nsecs: 0}}}"])
+            try:
+                code, output = peer.run(real_time_factor=0.5, time_limit=3.0)
+            finally:
+                node.terminate()
+                node.wait()
+        self.assertEqual(code, 0, output)
+        self.assertRegex(output, "joint_command.*/rostopic_")
 
     def test_lets_a_hand_guide_the_arm(self):
         with FakeFramework(guide=True) as peer:
@@ -118,6 +184,7 @@ class LockstepTest(unittest.TestCase):
 
 
 class SilenceTest(unittest.TestCase):
+    # Fault 34: lockstep peer silent -> after the limit the topic is named, exit code not 0
     def test_names_the_topic_that_falls_silent(self):
         for name in ("tag_detections", "target/forecast", "execution/progress",
                      "execution/setpoint", "joint_command"):
@@ -130,6 +197,14 @@ class SilenceTest(unittest.TestCase):
                 code, output = peer.run(response_timeout=2.0)
             self.assertEqual(code, 3, output)
             self.assertIn(f"{name} is silent", output)
+
+    # Fault 34, 11: silent from the first tick on -> insisted on after the first ticks
+    def test_names_the_topic_that_was_never_heard(self):
+        with FakeFramework(mute="joint_command") as peer:
+            code, output = peer.run(response_timeout=3.0)
+        self.assertEqual(code, 3, output)
+        self.assertIn("joint_command is silent", output)
+        self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
 
     def test_names_the_trajectory_that_the_decision_waits_for(self):
         with FakeFramework(forecast=True, mute="execution/progress", mute_from=0.11) as peer:
@@ -177,71 +252,6 @@ class StartTest(unittest.TestCase):
                 framework.close()
             self.assertEqual(code, 0, output)
             self.assertLess(time.monotonic() - begin, 3.0)
-
-
-class ParameterTest(unittest.TestCase):
-    CATALOGUE = [
-        ("scenario", "boat"), ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"),
-        ("body_motion", "absent.csv"), ("body_motion", 0), ("gait", "gallop"), ("seed", -1),
-        ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
-        ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
-        ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
-        ("lockstep", "yes"), ("paused", 1), ("response_timeout", 0.0),
-        ("response_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
-        ("time_limit", float("nan")), ("end_delay", -1.0), ("no_such_parameter", 1),
-    ]
-    CAMERA_CATALOGUE = [
-        ("noise", -4.0), ("latency", 0.6), ("exposure", 0.1), ("light_change", 1.0),
-        ("light_period", 0.0), ("clutter", 1000), ("clutter", 0.5), ("distortion", [0.0] * 4),
-        ("distortion", [-3.0, 0.0, 0.0, 0.0, 0.0]), ("distortion", [0.0, 0.0, float("nan"), 0.0, 0.0]),
-        ("no_such_parameter", 1),
-    ]
-
-    def test_refuses_bad_values_by_name(self):
-        for name, value in self.CATALOGUE:
-            code, output = Simulator(**{name: value}).wait()
-            self.assertEqual(code, 2, f"{name} = {value}: {output}")
-            self.assertIn(name, output)
-            self.assertEqual(output.count("FATAL"), 1, output)
-
-    def test_refuses_a_motion_beyond_the_platforms_bounds(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "storm.yaml")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write("sway: {sines: [{amplitude: 0.5, rate: 12.6, phase: 0.0}]}")
-            code, output = Simulator(motion=path).wait()
-        self.assertEqual(code, 2, output)
-        self.assertIn("sway amplitude = 0.5, must be at most 0.1 m", output)
-        self.assertIn("motion is", output)
-
-    def test_refuses_bad_values_of_the_camera_by_name(self):
-        for name, value in self.CAMERA_CATALOGUE:
-            code, output = Simulator(camera={**config()["camera"], name: value}).wait()
-            self.assertEqual(code, 2, f"{name} = {value}: {output}")
-            self.assertIn(name, output)
-            self.assertEqual(output.count("FATAL"), 1, output)
-
-    def test_requires_every_parameter(self):
-        for name in config():
-            code, output = Simulator(**{name: None}).wait()
-            self.assertEqual(code, 2, f"{name}: {output}")
-            self.assertIn(name, output)
-
-    def test_requires_a_robot(self):
-        urdf = rospy.get_param("robot_description")
-        try:
-            weightless = re.sub("<inertial>.*?</inertial>", "", urdf, flags=re.DOTALL)
-            for bad in ("", "<robot", "<robot name='none'/>", weightless):
-                rospy.set_param("robot_description", bad)
-                code, output = Simulator().wait()
-                self.assertEqual(code, 2, output)
-                self.assertIn("robot_description", output)
-            rospy.delete_param("robot_description")
-            code, output = Simulator().wait()
-            self.assertEqual(code, 2, output)
-            self.assertIn("robot_description", output)
-        finally:
-            rospy.set_param("robot_description", urdf)
 
 
 class MutedFrom:
