@@ -8,29 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "joiner.hpp"
+
 namespace prf_core {
 namespace {
 
 using std::chrono::milliseconds;
-
-using Joiner = StreamJoiner<int, int>;
-
-Joiner joiner_with(Duration max_wait) { return Joiner({max_wait}); }
-
-StampOrder primary(Joiner& joiner, int ms) { return joiner.push_primary(milliseconds(ms), ms); }
-StampOrder secondary(Joiner& joiner, int ms) { return joiner.push_secondary(milliseconds(ms), ms); }
-
-// "10=10" joined, "10=-" alone, "*" before the first of a new run.
-std::string decided(Joiner& joiner) {
-  std::string text;
-  while (const auto joined = joiner.pop()) {
-    EXPECT_EQ(joined->stamp, milliseconds(joined->primary));
-    if (joined->new_run) text += "*";
-    text += std::to_string(joined->primary) + "=" +
-            (joined->secondary ? std::to_string(*joined->secondary) : "-") + " ";
-  }
-  return text;
-}
 
 TEST(StreamJoiner, JoinsEqualStampsInEitherOrder) {
   Joiner joiner = joiner_with(milliseconds(300));
@@ -121,99 +104,6 @@ TEST(StreamJoiner, AdvancesWithoutAMessage) {
   primary(joiner, -2000);
   secondary(joiner, -2000);
   EXPECT_EQ(decided(joiner), "*-2000=-2000 ");
-}
-
-void primaries(Joiner& joiner, const std::vector<int>& stamps_ms) {
-  for (const int ms : stamps_ms) primary(joiner, ms);
-}
-void secondaries(Joiner& joiner, const std::vector<int>& stamps_ms) {
-  for (const int ms : stamps_ms) secondary(joiner, ms);
-}
-
-// Fault 40: a secondary late, early, doubled, far ahead -> costs at most its own tick
-TEST(StreamJoiner, LosesNoPrimaryToASecondaryWithAWrongStamp) {
-  for (const int wrong : {0, 4000, 4990, 5150, 5900, 6500, 1'000'000}) {
-    Joiner joiner = joiner_with(milliseconds(300));
-    primaries(joiner, {5000});
-    secondaries(joiner, {5000, wrong});
-    std::string expected = "5000=5000 ";
-    for (int ms = 5010; ms < 6000; ms += 10) {
-      primary(joiner, ms);
-      secondary(joiner, ms);
-      expected += std::to_string(ms) + "=" + std::to_string(ms) + " ";
-    }
-    EXPECT_EQ(decided(joiner), expected) << wrong;
-  }
-}
-
-TEST(StreamJoiner, TellsWhatItDoesWithASecondary) {
-  Joiner joiner = joiner_with(milliseconds(300));
-  EXPECT_EQ(secondary(joiner, 1'000'000), StampOrder::kNewer);  // there is no clock yet
-  primary(joiner, 5000);
-  EXPECT_EQ(secondary(joiner, 5000), StampOrder::kNewer);
-  EXPECT_EQ(decided(joiner), "5000=5000 ");
-  EXPECT_EQ(secondary(joiner, 5000), StampOrder::kDuplicate);
-  EXPECT_EQ(secondary(joiner, 4990), StampOrder::kOld);
-  EXPECT_EQ(secondary(joiner, 10), StampOrder::kOld);
-  EXPECT_EQ(secondary(joiner, 6000), StampOrder::kNewer);
-  EXPECT_EQ(secondary(joiner, 6001), StampOrder::kFarAhead);
-}
-
-TEST(StreamJoiner, DropsPrimariesOutOfOrder) {
-  Joiner joiner = joiner_with(milliseconds(300));
-  primaries(joiner, {5000, 4990, 10, 5010, 900'000, 5020});
-  secondaries(joiner, {5000, 5010, 5020});
-  EXPECT_EQ(decided(joiner), "5000=5000 5010=5010 5020=5020 ");
-}
-
-// Whichever stream shows the jump first; a secondary that is left of the old run is never joined.
-TEST(StreamJoiner, BeginsANewRunWhenThePrimariesGoBack) {
-  for (const bool secondary_first : {true, false}) {
-    Joiner joiner = joiner_with(milliseconds(300));
-    primaries(joiner, {5000, 5010});
-    secondaries(joiner, {5000, 5020});
-    EXPECT_EQ(decided(joiner), "5000=5000 5010=- ");
-    primaries(joiner, {0, 10});
-    EXPECT_EQ(decided(joiner), "");
-    EXPECT_TRUE(!secondary_first || secondary(joiner, 20) == StampOrder::kOld);
-    EXPECT_EQ(primary(joiner, 20), StampOrder::kBackwardJump);
-    if (!secondary_first) {
-      EXPECT_EQ(decided(joiner), "");
-      EXPECT_EQ(secondary(joiner, 5030), StampOrder::kFarAhead);
-      EXPECT_EQ(secondary(joiner, 20), StampOrder::kNewer);
-    }
-    EXPECT_EQ(decided(joiner), "*20=20 ");
-    for (int ms = 30; ms <= 5020; ms += 10) primary(joiner, ms);
-    EXPECT_EQ(decided(joiner).find("=5"), std::string::npos);
-  }
-}
-
-TEST(StreamJoiner, FollowsPrimariesThatLeapForward) {
-  Joiner joiner = joiner_with(milliseconds(300));
-  primaries(joiner, {0, 9000, 9010});
-  secondaries(joiner, {0, 9020});
-  EXPECT_EQ(decided(joiner), "0=0 ");
-  EXPECT_EQ(primary(joiner, 9020), StampOrder::kForwardJump);
-  EXPECT_EQ(decided(joiner), "9020=9020 ");
-}
-
-TEST(StreamJoiner, ForgetsASecondaryFarAheadOfTheFirstPrimary) {
-  Joiner joiner = joiner_with(milliseconds(300));
-  secondaries(joiner, {10, 1'000'000});
-  primary(joiner, 10);
-  EXPECT_EQ(decided(joiner), "10=10 ");
-  primary(joiner, 20);
-  EXPECT_EQ(decided(joiner), "");
-}
-
-// Fault 40: a primary that names a key far ahead -> it alone goes without, later ones are joined
-TEST(StreamJoiner, DoesNotWaitForAKeyFarAheadOfItsStamp) {
-  Joiner joiner = joiner_with(Duration::max());
-  joiner.push_primary(milliseconds(170), milliseconds(900'000), 170);
-  EXPECT_EQ(decided(joiner), "170=- ");
-  joiner.push_primary(milliseconds(180), milliseconds(100), 180);
-  secondary(joiner, 100);
-  EXPECT_EQ(decided(joiner), "180=100 ");
 }
 
 // Two runs: each stream goes back from 5000 to 0 in its own time.

@@ -47,24 +47,29 @@ class ClockMonitor {
  public:
   explicit ClockMonitor(const ClockBounds& bounds = {}) : bounds_(bounds) {}
 
-  // Classifies the stamp and makes it the newest where the table says so.
-  StampOrder observe(Stamp stamp) {
-    if (!newest_) return accept(stamp, StampOrder::kNewer);
-    if (!jumps_back(stamp) && !jumps_ahead(stamp)) {
-      jump_.reset();
-      if (stamp > *newest_) return accept(stamp, StampOrder::kNewer);
-      return stamp == *newest_ ? StampOrder::kDuplicate : StampOrder::kOld;
-    }
-    const bool back = stamp < *newest_;
-    if (confirm(stamp) < bounds_.confirmations) {
-      return back ? StampOrder::kOld : StampOrder::kFarAhead;
-    }
-    return accept(stamp, back ? StampOrder::kBackwardJump : StampOrder::kForwardJump);
-  }
-
   // What observe() would return.
   [[nodiscard]] StampOrder classify(Stamp stamp) const {
-    return ClockMonitor(*this).observe(stamp);
+    if (!newest_) return StampOrder::kNewer;
+    const bool back = stamp < *newest_;
+    if (!jumps_back(stamp) && !jumps_ahead(stamp)) {
+      if (stamp == *newest_) return StampOrder::kDuplicate;
+      return back ? StampOrder::kOld : StampOrder::kNewer;
+    }
+    const bool confirmed = in_a_row(stamp) >= bounds_.confirmations;
+    if (back) return confirmed ? StampOrder::kBackwardJump : StampOrder::kOld;
+    return confirmed ? StampOrder::kForwardJump : StampOrder::kFarAhead;
+  }
+
+  // Classifies the stamp and makes it the newest where the table says so.
+  StampOrder observe(Stamp stamp) {
+    const StampOrder order = classify(stamp);
+    if (is_accepted(order)) {
+      restart(stamp);
+    } else {
+      row_ = jumps_back(stamp) || jumps_ahead(stamp) ? in_a_row(stamp) : 0;
+      last_ = stamp;
+    }
+    return order;
   }
 
   // Whether this stamp alone lies more than the bound before, or beyond, the newest one.
@@ -81,35 +86,22 @@ class ClockMonitor {
   // before its first stamp.
   void restart(std::optional<Stamp> newest = std::nullopt) {
     newest_ = newest;
-    jump_.reset();
+    row_ = 0;
   }
 
  private:
-  // Consecutive stamps that say that the clock has jumped.
-  struct Jump {
-    Stamp last;
-    int stamps = 1;
-  };
-
-  StampOrder accept(Stamp stamp, StampOrder order) {
-    restart(stamp);
-    return order;
-  }
-
-  // How many stamps in a row speak for a jump, this one included.
-  int confirm(Stamp stamp) {
-    const bool same_way = jump_ && (jump_->last < *newest_) == (stamp < *newest_);
-    const bool follows =
-        same_way && stamp > jump_->last && stamp - jump_->last <= bounds_.far_ahead;
-    const bool repeats = jump_ && stamp == jump_->last;  // says nothing new
-    if (repeats) return jump_->stamps;
-    jump_ = Jump{stamp, follows ? jump_->stamps + 1 : 1};
-    return jump_->stamps;
+  // How many stamps in a row speak for a jump, this one included. (One before and one beyond n lie
+  // farther apart than A, so that they never follow each other.)
+  [[nodiscard]] int in_a_row(Stamp stamp) const {
+    if (row_ > 0 && stamp == last_) return row_;  // says nothing new
+    const bool follows = row_ > 0 && stamp > last_ && stamp - last_ <= bounds_.far_ahead;
+    return follows ? row_ + 1 : 1;
   }
 
   ClockBounds bounds_;
   std::optional<Stamp> newest_;
-  std::optional<Jump> jump_;
+  Stamp last_{0};  // of those that speak for a jump
+  int row_ = 0;    // how many of them there are
 };
 
 }  // namespace prf_core

@@ -7,8 +7,8 @@
 // no later message can change what it is joined with. The oldest one is decided when
 //
 //   a secondary with stamp = key has come                       -> joined with it
-//   a later secondary has come, at most max_lead ahead of the
-//   newest primary                                              -> alone: it was never sent
+//   the latest secondary is a later one, at most max_lead ahead
+//   of the newest primary                                       -> alone: it was never sent
 //   the primary stream has gone on by more than max_wait        -> alone: the secondary is silent,
 //                                                                  and not waited for until one
 //                                                                  comes again
@@ -68,6 +68,7 @@ class StreamJoiner {
       waiting_.clear();
       secondaries_.clear();
       decided_.reset();
+      last_secondary_.reset();
       silence_.heard();
       new_run_ = true;
     }
@@ -105,6 +106,7 @@ class StreamJoiner {
     aside_.clear();
     secondary_follows_ = true;
     silence_.heard();
+    if (!decided_ || stamp >= *decided_) last_secondary_ = stamp;
     if (secondaries_.count(stamp) > 0) return StampOrder::kDuplicate;
     if (decided_ && stamp <= *decided_) return StampOrder::kOld;
     store(secondaries_, stamp, std::move(message));
@@ -148,7 +150,9 @@ class StreamJoiner {
     for (auto next = aside_.begin(); next != aside_.end();) {
       const auto one = next++;
       const bool in_range = !clock_.jumps_back(one->first) && !clock_.jumps_ahead(one->first);
-      if (in_range) secondaries_.insert(aside_.extract(one));
+      if (!in_range) continue;
+      last_secondary_ = one->first;
+      secondaries_.insert(aside_.extract(one));
     }
   }
 
@@ -158,8 +162,8 @@ class StreamJoiner {
 
   [[nodiscard]] bool is_past(Stamp key) const {
     if (decided_ && key <= *decided_) return true;
-    const auto later = secondaries_.upper_bound(key);
-    return later != secondaries_.end() && later->first - *clock_.newest() <= params_.max_lead;
+    return last_secondary_ && *last_secondary_ > key &&
+           *last_secondary_ - *clock_.newest() <= params_.max_lead;
   }
 
   [[nodiscard]] bool gives_up(Stamp waiting) {
@@ -172,9 +176,10 @@ class StreamJoiner {
   Secondaries secondaries_;
   Secondaries aside_;  // out of range since the last one that was in range
   SilenceMonitor silence_;
-  std::optional<Stamp> decided_;   // newest key of this run that was decided
-  bool new_run_ = false;           // the next primary pushed is the first of a new run
-  bool secondary_follows_ = true;  // false: it may still send what is left of the run before
+  std::optional<Stamp> decided_;         // newest key of this run that was decided
+  std::optional<Stamp> last_secondary_;  // the latest to arrive that is not older than that
+  bool new_run_ = false;                 // the next primary pushed is the first of a new run
+  bool secondary_follows_ = true;        // false: it may still send what is left of the run before
 };
 
 }  // namespace prf_core
