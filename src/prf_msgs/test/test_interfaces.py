@@ -25,7 +25,7 @@ class Table(unittest.TestCase):
     def test_a_bag_holds_these_topics_in_this_order(self):
         self.assertEqual(self.table.recorded, ["clock", *SENSORS, *TRUTH, *OUTPUTS, "tf",
                                                "tf_static", "diagnostics", "rosout",
-                                               "trial/description"])
+                                               "trial/description", "fault/events"])
 
     def test_kinds_are_listed_in_the_order_of_the_table(self):
         self.assertEqual(self.table.of_kind("sensor"), SENSORS)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The framework's nodes hear what the data flow says, and never the ground truth."""
+import subprocess
 import time
 import unittest
 
@@ -49,6 +50,18 @@ class FrameworkGraph(unittest.TestCase):
         for topic, nodes in topics.TABLE.sensor_readers.items():
             for node in nodes:
                 self.assertIn(topic, self.heard["/" + node])
+
+    # Fault 46, A12: no sensor says anything -> ERROR in diagnostics names topic, type and rate; the client repeats it
+    def test_silence_is_an_error_that_names_the_topic(self):
+        client = subprocess.Popen(
+            ["rosrun", "prf_decision", "execute_skill", "--patience", "12"], text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            told = client.communicate(timeout=60.0)[1]
+        finally:
+            client.kill()
+        self.assertNotEqual(client.returncode, 0)
+        self.assertRegex(told, r"execute_skill: arm_controller.*no message on \S*joint_states.*100 Hz")
 
 
 if __name__ == "__main__":

@@ -192,9 +192,10 @@ def _lateral_statistics(recording, states, stamps, lateral):
 
 def _following(recording):
     """Mean and largest distance of the measured hand from the set-point, mm, or two None."""
-    errors = 1e3 * recording.control.position_errors[np.isin(
-        recording.control.codes, (ControlStatus.FOLLOWING, ControlStatus.LIMITED))[
-            :len(recording.control.position_errors)]]
+    stamps, errors = recording.following()
+    moving = recording.control.stamps[np.isin(
+        recording.control.codes, (ControlStatus.FOLLOWING, ControlStatus.LIMITED))]
+    errors = 1e3 * errors[np.isin(stamps, moving), 0]
     errors = errors[np.isfinite(errors)]
     return {"following_error_mean_mm": float(np.mean(errors)) if len(errors) else None,
             "following_error_largest_mm": float(np.max(errors)) if len(errors) else None}

@@ -149,11 +149,11 @@ def events(data: Recording, figures: dict) -> list[Event]:
 
 def following_at(data: Recording, stamps: np.ndarray) -> np.ndarray:
     """mm from the set-point to the measured hand at the stamps, NaN before the first status."""
-    errors, told = data.control.position_errors, data.control.stamps
+    told, errors = data.following()
     row = np.searchsorted(told, stamps, side="right") - 1
     if not len(errors):
         return np.full(len(stamps), np.nan)
-    return np.where(row >= 0, 1e3 * errors[np.maximum(row, 0)], np.nan)
+    return np.where(row >= 0, 1e3 * errors[np.maximum(row, 0), 0], np.nan)
 
 
 def event_lines(data: Recording, figures: dict) -> list[tuple[float, float, float, float, str]]:

@@ -51,6 +51,8 @@ class Progress:
     posteriors: np.ndarray  # (n, 3)
     cursors: np.ndarray  # (n,)
     reasons: list
+    # (n, 2) measured hand from the set-point, m and rad; NaN where it is unknown or was not told
+    following: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
 
 
 @dataclass
@@ -125,6 +127,16 @@ class Recording:
     measured: Joints | None = None
     commands: Joints | None = None
     fault_events: list = field(default_factory=list)
+
+    def following(self) -> tuple[np.ndarray, np.ndarray]:
+        """(stamps ns, (n, 2) m and rad) of the measured hand against the set-point.
+
+        By the decision, which tells it at every tick; else by the controller.
+        """
+        if np.any(np.isfinite(self.progress.following)):
+            return self.progress.stamps, self.progress.following
+        errors = [self.control.position_errors, self.control.orientation_errors]
+        return self.control.stamps[:len(errors[0])], np.column_stack(errors)
 
     @property
     def start(self) -> int:
@@ -206,8 +218,10 @@ class _Reader:
             "tag_detections": lambda message: tag_row(message, self._tag_id),
             "target/forecast": self._keep_forecast,
             "skill/trajectory": self._keep_plan,
-            "execution/progress": lambda message: (message.state, message.cursor, message.reason,
-                                                   *message.posterior),
+            "execution/progress": lambda message: (
+                message.state, message.cursor, message.reason,
+                getattr(message, "following_error", -1.0),  # not in older bags
+                getattr(message, "following_rotation", -1.0), *message.posterior),
             "control/status": lambda message: (message.code, message.reason,
                                                message.position_error,
                                                message.orientation_error),
@@ -291,10 +305,13 @@ class _Reader:
         return Poses(self.stamps(topic), values)
 
     def progress(self):
-        states, cursors, reasons, *posteriors = zip(*self._rows["execution/progress"])
+        states, cursors, reasons, metres, radians, *posteriors = zip(
+            *self._rows["execution/progress"])
+        following = np.column_stack([metres, radians]).astype(float)
+        following[following < 0.0] = np.nan
         return Progress(self.stamps("execution/progress"), np.array(states, dtype=int),
                         np.array(posteriors, dtype=float).T, np.array(cursors, dtype=float),
-                        list(reasons))
+                        list(reasons), following)
 
     def control(self):
         codes, reasons, positions, orientations = zip(*self._rows["control/status"])

@@ -70,10 +70,9 @@ def following(recording: Recording) -> Markup:
     """Position and rotation of the measured hand against its set-point, and the phase."""
     figure = Figure(figsize=(9.0, 4.6), layout="constrained")
     position, rotation, phase = figure.subplots(3, 1, sharex=True)
-    control = recording.control
-    stamps = control.stamps[:len(control.position_errors)]
-    for panel, values, label in ((position, 1e3 * control.position_errors, "position, mm"),
-                                 (rotation, np.degrees(control.orientation_errors), "rotation, °")):
+    stamps, errors = recording.following()
+    for panel, values, label in ((position, 1e3 * errors[:, 0], "position, mm"),
+                                 (rotation, np.degrees(errors[:, 1]), "rotation, °")):
         _grid(panel)
         panel.plot(*thin(recording.seconds(stamps), values), **TRUE)
         panel.set_ylabel(label, fontsize=9)

@@ -37,6 +37,14 @@ class Timeline(unittest.TestCase):
         self.assertAlmostEqual(to_stand_off, 50.0, 6)
         self.assertEqual(following, 0.0)
 
+    def test_the_following_error_is_the_decisions_where_it_tells_one(self):
+        data = synthetic.make_recording(3.0)
+        self.assertEqual(timeline.following_at(data, data.ticks[[10]])[0], 0.0)
+        data.progress.following = np.tile([0.004, 0.1], (len(data.ticks), 1))
+        data.progress.following[20] = np.nan
+        self.assertAlmostEqual(timeline.following_at(data, data.ticks[[10]])[0], 4.0)
+        self.assertTrue(np.isnan(timeline.following_at(data, data.ticks[[20]])[0]))
+
     def test_contacts_near_in_time_are_one_event_for_each_pair_of_links(self):
         data = synthetic.make_recording(4.0)
         pair, other = ("box", "camera_link"), ("body", "j2s7s300_link_5")
