@@ -25,7 +25,7 @@ import numpy as np
 import rosgraph
 
 from prf_experiments import files
-from prf_experiments.run import connections, processes, session
+from prf_experiments.run import connections, session
 
 TICKS = ("joint_states", "execution/progress", "execution/setpoint", "joint_command")
 IMAGES = ("camera/camera_info", "tag_detections", "target/forecast")
