@@ -22,7 +22,7 @@ std::string refusal(const std::function<void()>& check) {
   return "";
 }
 
-// Fault 43: finite but absurd numbers -> refused by name where they become values; so are NaN, inf
+// Fault 1, 43: absurd, infinite or NaN numbers -> refused by name where they become values
 TEST(Bounds, HoldNumbersOnBothSidesAndNoNan) {
   for (const double value : {0.0, -kMaxSpeed, kMaxSpeed}) EXPECT_TRUE(is_within(value, kMaxSpeed));
   for (const double value : {1e300, -1e300, 1000.0001, kNan, kInf, -kInf}) {
@@ -44,7 +44,7 @@ TEST(Bounds, RefuseByNameValueAndBound) {
             "P = 20 at most, must be finite and within +-10 m^2");
 }
 
-// Fault 42: stamps at the ends of ROS time -> refused, also an hour before the end
+// Fault 42, A4: stamps at the ends of ROS time -> refused, also an hour before the end
 TEST(Bounds, RefuseStampsThatArithmeticCouldOverflow) {
   const Stamp end = std::chrono::seconds(4'294'967'295);
   for (const Stamp stamp : {Stamp{0}, kMaxStamp, Stamp{std::chrono::seconds(1'800'000'000)}}) {

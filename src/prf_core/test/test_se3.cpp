@@ -99,6 +99,7 @@ TEST(Pose, BecomesAnIsometryAndComesBack) {
   }
 }
 
+// Fault 1, 2, 43: a pose that is not finite, too far or not of unit norm -> refused by name
 TEST(RequirePose, NamesWhatIsNotFiniteOrNotUnit) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto message = [](const Pose& pose) {
@@ -113,6 +114,7 @@ TEST(RequirePose, NamesWhatIsNotFiniteOrNotUnit) {
   EXPECT_EQ(message({Vector3d::Zero(), Quaterniond(1.0009, 0, 0, 0)}), "");
   EXPECT_EQ(message({Vector3d(0, nan, 0), Quaterniond::Identity()}),
             "goal.position =   0 nan   0, must be finite and within +-10000 m");
+  EXPECT_NE(message({Vector3d(0, 0, -1e300), Quaterniond::Identity()}), "");
   EXPECT_EQ(message({Vector3d::Zero(), Quaterniond(1.002, 0, 0, 0)}),
             "goal.orientation's norm = 1.002, must be 1 within 0.001");
   EXPECT_NE(message({Vector3d::Zero(), Quaterniond(nan, 0, 0, 0)}), "");

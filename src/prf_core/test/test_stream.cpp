@@ -26,6 +26,7 @@ StampedQueue<int> queue_of(std::initializer_list<int> stamps, std::size_t capaci
   return queue;
 }
 
+// Fault 8, 9, 10: a stamp that is old, double or far ahead -> not stored, the order tells which
 TEST(StampedQueue, StoresRisingStampsOnly) {
   StampedQueue<int> queue = queue_of({500, 600});
   EXPECT_EQ(queue.push(Stamp{600}, 1), StampOrder::kDuplicate);
@@ -36,6 +37,7 @@ TEST(StampedQueue, StoresRisingStampsOnly) {
   EXPECT_EQ(stamps_of(queue), "500 600 601 ");
 }
 
+// Fault 11: the clock jumps back -> at the third stamp what is queued of the old run is dropped
 TEST(StampedQueue, DropsTheOldRunWhenTheClockGoesBack) {
   StampedQueue<int> queue = queue_of({500, 600});
   for (const int stamp : {10, 20}) EXPECT_EQ(queue.push(Stamp{stamp}, 1), StampOrder::kOld);
@@ -44,6 +46,7 @@ TEST(StampedQueue, DropsTheOldRunWhenTheClockGoesBack) {
   EXPECT_EQ(stamps_of(queue), "30 ");
 }
 
+// Fault 13: the clock leaps forward -> stored again from the third stamp on
 TEST(StampedQueue, StoresFromTheStampThatProvesThatTheClockLeapt) {
   StampedQueue<int> queue = queue_of({500, 9000, 9010});
   EXPECT_EQ(queue.push(Stamp{9020}, 1), StampOrder::kForwardJump);
@@ -88,6 +91,7 @@ TEST(StampedQueue, RemembersItsClockWhenEmptied) {
   EXPECT_EQ(queue.push(Stamp{450}, 1), StampOrder::kNewer);
 }
 
+// Fault 12: the data's clock pauses -> no time-out trips; silence is counted in data time alone
 TEST(SilenceMonitor, GivesUpByDataTimeUntilTheStreamIsHeardAgain) {
   SilenceMonitor silence(milliseconds(300));
   EXPECT_FALSE(silence.gives_up(seconds(1), seconds(1)));

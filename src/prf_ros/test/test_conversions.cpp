@@ -28,7 +28,7 @@ TEST(Conversions, KeepEveryNanosecond) {
   EXPECT_EQ(to_core(ros::Duration(-1, 999'999'999)), prf_core::Duration{-1});
 }
 
-// Fault 42: stamps and sums at the ends of ROS time -> refused, or held to its ends; never a throw
+// Fault 42, A4: stamps and sums at the ends of ROS time -> refused or held there, never a throw
 TEST(Conversions, HoldStampsToTheEndsOfRosTime) {
   using prf_core::Stamp;
   EXPECT_EQ(to_ros_time(Stamp{-1}), ros::Time(0, 0));
@@ -62,6 +62,7 @@ TEST(Conversions, KeepEveryComponent) {
   EXPECT_EQ(to_core(twist.angular), 2 * vector);
 }
 
+// Fault 2: a quaternion that is not unit -> normalised within 0.001, else refused
 TEST(Conversions, NormaliseAQuaternionOnlyNearTheUnit) {
   geometry_msgs::Pose message;
   message.orientation = quaternion(0.0, 0.0, 0.6 * 1.0009, 0.8 * 1.0009);
@@ -125,6 +126,7 @@ TEST(Conversions, ReadAForecast) {
   EXPECT_EQ(last.covariance(1, 0), 6.0);
 }
 
+// Fault 1: a forecast with NaN, no prediction or an unknown status -> refused
 TEST(Conversions, RefuseABrokenForecast) {
   prf_msgs::TargetForecast message = forecast();
   message.status = 9;

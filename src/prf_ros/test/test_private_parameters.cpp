@@ -65,6 +65,7 @@ TEST(PrivateParameters, NamesTheMissingKey) {
   EXPECT_THAT(refusal([&] { (void)values.number("radius"); }), HasSubstr("radius is missing"));
 }
 
+// Fault 28: a parameter is missing or of another type -> the node refuses to start and names it
 TEST(PrivateParameters, NamesKeyValueAndTypeWhenTheTypeIsWrong) {
   PrivateParameters values(sample());
   EXPECT_EQ(refusal([&] { (void)values.integer("rate"); }), "rate = 2.5, must be an integer");
@@ -94,7 +95,7 @@ TEST(Run, TurnsARefusalIntoExitCodeTwo) {
   EXPECT_EQ(run([] {}), 0);
 }
 
-// Fault 42: an exception that nothing handles -> one fatal line names it, exit code 3, no abort
+// Fault 42, A4: an exception that nothing handles -> one fatal line names it, exit code 3, no abort
 TEST(Run, TurnsAnyOtherExceptionIntoExitCodeThree) {
   EXPECT_EQ(run([] { throw std::runtime_error("time is out of dual 32-bit range"); }), 3);
   EXPECT_EQ(run([] { throw std::bad_alloc(); }), 3);

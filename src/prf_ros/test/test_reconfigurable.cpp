@@ -96,6 +96,7 @@ TEST_F(Reconfigurable, KeepsWhatAChangeDoesNotName) {
   EXPECT_EQ(applied_.back(), (Values{{"gain", 3.0}, {"wait", 0.7}}));
 }
 
+// Fault 29: a change while it runs with one bad value -> refused as a whole, nothing has changed
 TEST_F(Reconfigurable, RefusesAChangeAsAWhole) {
   ASSERT_TRUE(set({{"gain", 1.5}, {"wait", 0.4}}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
