@@ -109,7 +109,7 @@ class RobotStatePublisher(unittest.TestCase):
         while not any("two publishers" in line for line in self.lines):
             self.publisher.publish(joints(stamp))
             stamp += 0.01
-            self.wait_for(lambda: stamp < 80.0, "no second publisher was reported")
+            self.assertLess(stamp, 80.0, "no second publisher was reported")
             time.sleep(0.01)
         self.says("joint_states has two publishers", rospy.get_name(), "/copy")
 
