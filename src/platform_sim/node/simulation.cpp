@@ -23,6 +23,7 @@ constexpr double kBeginPatience = 2.0;       // s of wall time
 constexpr double kSettledConnections = 0.5;  // s of wall time without a new one
 constexpr double kReportPeriod = 1.0;        // s of wall time
 const ros::WallDuration kSpin(0.01);
+const ros::WallDuration kLongestLag(0.05);   // behind the pace
 const ros::WallDuration kLastMessages(0.5);  // for what is still under way when the run ends
 
 void spin(const ros::WallDuration& longest) {
@@ -72,7 +73,7 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
 Simulation::End Simulation::run() {
   End end_reason = wait_for_start();
   if (end_reason != End::kEnded) return end_reason;
-  begin_ = last_report_ = ros::WallTime::now();
+  begin_ = pace_ = last_report_ = ros::WallTime::now();
   while (!at_end()) {
     simulate_tick();
     publish_tick();
@@ -225,7 +226,9 @@ void Simulation::keep_pace() {
   const double cap =
       params_.real_time_factor > 0.0 || params_.lockstep ? params_.real_time_factor : 1.0;
   if (cap <= 0.0) return;
-  const ros::WallTime due = begin_ + ros::WallDuration(seconds(now_ms_) / cap);
+  const ros::WallTime due = pace_ + ros::WallDuration(seconds(now_ms_) / cap);
+  // Time lost is not made up for: a robot does not move faster after its computer was late.
+  if (const ros::WallDuration late = ros::WallTime::now() - due; late > kLongestLag) pace_ += late;
   for (ros::WallTime now = ros::WallTime::now(); now < due && ros::ok();
        now = ros::WallTime::now()) {
     spin(std::min(due - now, kSpin));

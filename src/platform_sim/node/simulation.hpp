@@ -64,6 +64,7 @@ class Simulation {
   bool finished_ = false;
   bool fallen_ = false;
   ros::WallTime begin_, last_report_;
+  ros::WallTime pace_;  // wall time that time 0 would have at the capped rate
   std::int64_t last_report_ms_ = 0;
   unsigned unanswered_ = 0;  // ticks
   prf_ros::WallThrottle going_on_;
