@@ -42,17 +42,39 @@ std::optional<int> arm_joint(const RobotNames& robot, const std::string& name) {
   return joint >= 0 && joint <= 6 ? std::optional(joint) : std::nullopt;
 }
 
-std::optional<Pose> measured_hand(const RobotNames& robot, const sensor_msgs::JointState& joints) {
-  jaco_kinematics::JointVector q;
-  int found = 0;
-  for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
-    const auto joint = arm_joint(robot, joints.name[i]);
-    if (!joint) continue;
-    q[*joint] = joints.position[i];
-    ++found;
+std::string missing_joints(const RobotNames& robot, const sensor_msgs::JointState& joints) {
+  std::string missing;
+  for (int joint = 1; joint <= 7; ++joint) {
+    const std::string name = robot.joint_prefix + std::to_string(joint);
+    const auto found = std::find(joints.name.begin(), joints.name.end(), name);
+    const auto index = static_cast<std::size_t>(std::distance(joints.name.begin(), found));
+    if (index < joints.position.size()) continue;
+    missing += (missing.empty() ? "" : ", ") + name;
   }
-  if (found != 7 || !q.allFinite()) return std::nullopt;
+  return missing;
+}
+
+std::optional<Pose> measured_hand(const RobotNames& robot, const sensor_msgs::JointState& joints) {
+  constexpr double kMostTurns = 100;  // rad; beyond it the angle's sine means nothing
+  if (!missing_joints(robot, joints).empty()) return std::nullopt;
+  jaco_kinematics::JointVector q;
+  for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
+    if (const auto joint = arm_joint(robot, joints.name[i])) q[*joint] = joints.position[i];
+  }
+  if (!(q.cwiseAbs().maxCoeff() <= kMostTurns) || !q.allFinite()) return std::nullopt;
   return prf_core::pose_from(jaco_kinematics::forward(q));
+}
+
+ControlReport to_core(const prf_msgs::ControlStatus& message) {
+  using prf_msgs::ControlStatus;
+  ControlReport report;
+  report.stamp = prf_ros::to_core(message.header.stamp);
+  // What follows as far as it can is judged by the following error. An unknown code is a failure.
+  report.failing =
+      message.code != ControlStatus::FOLLOWING && message.code != ControlStatus::HOLDING &&
+      message.code != ControlStatus::LIMITED && message.code != ControlStatus::UNREACHABLE;
+  report.reason = message.reason.substr(0, 200);
+  return report;
 }
 
 std::shared_ptr<const TargetForecast> to_core(const RobotNames& robot,
@@ -98,6 +120,8 @@ prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& 
   message.time_to_go = prf_ros::to_ros_duration(progress.time_to_go);
   message.demonstration = progress.demonstration.name;
   message.demonstration_switch = progress.demonstration.number;
+  message.following_error = progress.following ? progress.following->position : -1;
+  message.following_rotation = progress.following ? progress.following->rotation : -1;
   return message;
 }
 static_assert(static_cast<int>(ExecutionState::kWaiting) == prf_msgs::ExecutionProgress::WAITING);

@@ -2,6 +2,7 @@
 // Messages to core types and back. Messages that must not be acted on throw std::invalid_argument.
 #pragma once
 
+#include <prf_msgs/ControlStatus.h>
 #include <prf_msgs/ExecutionProgress.h>
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
@@ -20,9 +21,14 @@ namespace prf_decision {
 // 0 .. 6, from base to hand; none for a finger or a leg.
 [[nodiscard]] std::optional<int> arm_joint(const RobotNames& robot, const std::string& name);
 
-// The measured hand; none when a joint of the arm is missing or not finite.
+// The joints of the arm that a message lacks, as "j1, j2"; empty: it has them all.
+[[nodiscard]] std::string missing_joints(const RobotNames& robot,
+                                         const sensor_msgs::JointState& joints);
+// The measured hand; none when a joint of the arm is missing, not finite or absurd.
 [[nodiscard]] std::optional<Pose> measured_hand(const RobotNames& robot,
                                                 const sensor_msgs::JointState& joints);
+
+[[nodiscard]] ControlReport to_core(const prf_msgs::ControlStatus& message);
 
 [[nodiscard]] std::shared_ptr<const TargetForecast> to_core(
     const RobotNames& robot, const prf_msgs::TargetForecast& message);

@@ -3,9 +3,13 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
+#include <cmath>
 #include <map>
+#include <prf_core/quoted.hpp>
 #include <prf_ros/conversions.hpp>
+#include <prf_ros/input_monitor.hpp>
 #include <prf_ros/reconfigurable.hpp>
+#include <sstream>
 
 #include "conversions.hpp"
 #include "params.hpp"
@@ -15,7 +19,9 @@ namespace prf_decision {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
-constexpr double kWarnPeriod = 1.0;  // s
+constexpr double kWarnPeriod = 1.0;   // s
+constexpr double kTickRate = 100.0;   // Hz
+constexpr double kTickSilence = 2.0;  // s of wall time, after which a client is told
 
 class DecisionNode {
  public:
@@ -24,24 +30,41 @@ class DecisionNode {
         gate_(params.gate),
         executive_(params.decision),
         action_(node_, params.robot, executive_),
+        inputs_(node_, &diagnostics_),
         reconfigurable_(ros::NodeHandle("~"), reconfigurable_numbers(params.decision),
                         [this](const ReconfigurableParams::Values& values) { tune(values); }) {
-    const auto hints = ros::TransportHints().tcpNoDelay();
-    subscribers_ = {
-        node_.subscribe("joint_states", kQueue, &DecisionNode::on_joint_states, this, hints),
-        node_.subscribe("target/forecast", kQueue, &DecisionNode::on_forecast, this, hints),
-        node_.subscribe("skill/trajectory", kQueue, &DecisionNode::on_trajectory, this, hints)};
+    subscribe();
     // After subscribing: whoever sees this publisher may start, nothing will be missed.
     setpoints_ =
         node_.advertise<trajectory_msgs::MultiDOFJointTrajectory>("execution/setpoint", kQueue);
     progresses_ = node_.advertise<prf_msgs::ExecutionProgress>("execution/progress", kQueue);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("decision", this, &DecisionNode::diagnose);
+    watchdog_ = node_.createWallTimer(ros::WallDuration(1.0), &DecisionNode::tell_silence, this);
     action_.start();
   }
 
  private:
   using ReconfigurableParams = prf_ros::ReconfigurableParams;
+
+  void subscribe() {
+    const auto& [frame, hand, prefix] = params_.robot;
+    const double camera_rate = 1 / to_seconds(params_.gate.camera_period);
+    inputs_.subscribe<sensor_msgs::JointState>(
+        {"joint_states", "sensor_msgs/JointState with " + prefix + "1 ... 7", kTickRate}, kQueue,
+        [this](const sensor_msgs::JointStateConstPtr& message) { on_joint_states(*message); });
+    inputs_.subscribe<prf_msgs::TargetForecast>(
+        {"target/forecast", "prf_msgs/TargetForecast in " + frame, camera_rate}, kQueue,
+        [this](const prf_msgs::TargetForecastConstPtr& message) { on_forecast(*message); });
+    inputs_.subscribe<prf_msgs::SkillTrajectory>(
+        {"skill/trajectory", "prf_msgs/SkillTrajectory, one for each forecast that progress names",
+         0.0, prf_ros::Presence::kOnDemand},
+        kQueue,
+        [this](const prf_msgs::SkillTrajectoryConstPtr& message) { on_trajectory(*message); });
+    inputs_.subscribe<prf_msgs::ControlStatus>(
+        {"control/status", "prf_msgs/ControlStatus, one for each tick", kTickRate}, kQueue,
+        [this](const prf_msgs::ControlStatusConstPtr& message) { on_control_status(*message); });
+  }
 
   void tune(const ReconfigurableParams::Values& values) {
     const DecisionParams tuned = with_reconfigured(params_.decision, values);
@@ -50,9 +73,14 @@ class DecisionNode {
   }
 
   void on_joint_states(const sensor_msgs::JointState& message) {
+    const std::string missing = missing_joints(params_.robot, message);
+    if (!missing.empty()) {  // no tick: perhaps the legs of the robot, by a sender of their own
+      inputs_.drop("joint_states", "without " + missing + ": no tick");
+      return;
+    }
     action_.see_joints(message);
-    account("joint_states", gate_.push_tick(prf_ros::to_core(message.header.stamp),
-                                            measured_hand(params_.robot, message)));
+    const Stamp stamp = prf_ros::to_core(message.header.stamp);
+    account("joint_states", stamp, gate_.push_tick(stamp, measured_hand(params_.robot, message)));
     process();
   }
 
@@ -63,7 +91,8 @@ class DecisionNode {
     } catch (const std::invalid_argument& error) {
       refuse("target/forecast", error.what());
     }
-    account("target/forecast", gate_.push_forecast(std::move(arrival)));
+    const Stamp stamp = arrival.stamp;
+    account("target/forecast", stamp, gate_.push_forecast(std::move(arrival)));
     process();
   }
 
@@ -74,18 +103,32 @@ class DecisionNode {
     } else if (!result.plan) {
       refuse("skill/trajectory", result.message);
     }
-    account("skill/trajectory", gate_.push_plan_result(std::move(result)));
+    const Stamp stamp = result.stamp;
+    account("skill/trajectory", stamp, gate_.push_plan_result(std::move(result)));
+    process();
+  }
+
+  void on_control_status(const prf_msgs::ControlStatus& message) {
+    const ControlReport report = to_core(message);
+    account("control/status", report.stamp, gate_.push_control_report(report));
     process();
   }
 
   void refuse(const std::string& topic, const std::string& reason) {
-    count(topic + " refused");
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s refused: %s", topic.c_str(), reason.c_str());
+    inputs_.drop(topic, "refused");
+    ROS_WARN_THROTTLE(kWarnPeriod, "%s refused: %s", topic.c_str(),
+                      prf_core::quoted(reason).c_str());
   }
 
-  void account(const std::string& topic, PushResult push) {
-    if (push == PushResult::kOld) count(topic + " dropped as old");
-    if (push == PushResult::kFarAhead) count(topic + " dropped as far ahead");
+  void account(const std::string& topic, Stamp stamp, PushResult push) {
+    if (push == PushResult::kOld || push == PushResult::kFarAhead) {
+      inputs_.drop(topic, push == PushResult::kOld
+                              ? "old: not newer than the one before, or older than the run"
+                              : "more than a second ahead of the ticks");
+      ROS_WARN_THROTTLE(kWarnPeriod, "%s of %.3f s dropped, the newest tick is of %.3f s",
+                        topic.c_str(), to_seconds(stamp),
+                        to_seconds(gate_.newest_tick().value_or(Stamp{0})));
+    }
     if (push != PushResult::kNewRun) return;
     ROS_WARN("clock of %s went back: new run", topic.c_str());
     executive_ = SkillExecutive(params_.decision);
@@ -98,6 +141,7 @@ class DecisionNode {
     while (const auto tick = gate_.next()) {
       if (tick->forecast_silent) report_silent("target/forecast");
       if (tick->planner_silent) report_silent("skill/trajectory");
+      if (tick->control_silent) report_silent("control/status");
       const auto [progress, setpoint] = executive_.update(*tick);
       progresses_.publish(to_message(params_.robot, progress));
       setpoints_.publish(to_message(params_.robot, tick->stamp, setpoint));
@@ -106,6 +150,7 @@ class DecisionNode {
       }
       action_.update(progress);
       last_ = progress;
+      last_processed_ = ros::WallTime::now();
       count("ticks");
       diagnostics_.update();
     }
@@ -113,14 +158,36 @@ class DecisionNode {
 
   void report_silent(const std::string& topic) {
     count("ticks without " + topic);
+    silent_ = topic;
     ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent, see max_wait", topic.c_str());
+  }
+
+  // Without ticks nothing else tells the client of the action what is missing.
+  void tell_silence(const ros::WallTimerEvent&) {
+    const double silence = (ros::WallTime::now() - last_processed_).toSec();
+    if (silence < kTickSilence) return;
+    std::ostringstream text;
+    text << "no control tick for " << std::lround(silence) << " s: joint_states with "
+         << params_.robot.joint_prefix << "1 ... 7 is missing";
+    action_.tell_missing(text.str());
   }
 
   void count(const std::string& what) { ++counters_[what]; }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, executive_.describe());
+    using diagnostic_msgs::DiagnosticStatus;
+    status.summary(DiagnosticStatus::OK, executive_.describe());
+    if (executive_.belief_resets() > 0) {
+      status.mergeSummary(DiagnosticStatus::WARN, "the HMM's belief was no distribution: reset");
+    }
+    if (!silent_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, silent_ + " is silent");
+    if (!executive_.following_trouble().empty()) {
+      status.mergeSummary(DiagnosticStatus::ERROR, executive_.following_trouble());
+    }
+    silent_.clear();
     for (const auto& [what, number] : counters_) status.add(what, number);
+    status.add("resets of the HMM's belief", executive_.belief_resets());
+    inputs_.report(status);
   }
 
   ros::NodeHandle node_;
@@ -128,13 +195,16 @@ class DecisionNode {
   TickGate gate_;
   SkillExecutive executive_;
   SkillAction action_;
+  diagnostic_updater::Updater diagnostics_;
+  prf_ros::InputMonitor inputs_;
   ReconfigurableParams reconfigurable_;
   Progress last_;
   std::map<std::string, std::size_t> counters_;
+  std::string silent_;  // a topic that was silent since the last diagnostics; or none
+  ros::WallTime last_processed_ = ros::WallTime::now();
   ros::Publisher progresses_;
   ros::Publisher setpoints_;
-  std::vector<ros::Subscriber> subscribers_;
-  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer watchdog_;
 };
 
 }  // namespace

@@ -16,6 +16,19 @@ Duration checked_seconds(const std::string& name, double value) {
   return from_seconds(value);
 }
 
+FollowingParams load_following(prf_ros::PrivateParameters& values) {
+  FollowingParams following;
+  const auto path = values.numbers("following_tolerance", 2);
+  const auto goal = values.numbers("goal_tolerance", 2);
+  const auto limits = values.numbers("following_limits", 3);
+  following.path = {path[0], path[1]};
+  following.goal = {goal[0], goal[1]};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    following.limits[i] = checked_seconds("following_limits", limits[i]);
+  }
+  return following;
+}
+
 GuardParams load_guards(prf_ros::PrivateParameters& values) {
   GuardParams guards;
   const auto coast = values.numbers("coast_limits", 3);
@@ -28,6 +41,7 @@ GuardParams load_guards(prf_ros::PrivateParameters& values) {
   guards.max_reach = values.number("max_reach");
   guards.workspace_radius = values.number("workspace_radius");
   guards.max_target_speed = values.number("max_target_speed");
+  guards.following = load_following(values);
   return guards;
 }
 
@@ -75,6 +89,7 @@ DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
                   values.text("joint_prefix")};
   params.gate.pipeline_delay = seconds("pipeline_delay");
   params.gate.camera_period = seconds("camera_period");
+  params.gate.control_delay = seconds("control_delay");
   params.gate.max_wait = seconds("max_wait");
   params.decision = load_decision(values);
   const std::string hmm_file = values.text("hmm_file");

@@ -103,10 +103,12 @@ void SkillAction::update(const Progress& progress) {
   if (progress.state == ExecutionState::kDone) {
     goal_->handle.setSucceeded(result_of(Result::DONE, progress.reason), progress.reason);
     goal_.reset();
-  } else if (progress.state == ExecutionState::kStopped) {
-    if (!goal_->stopped) goal_->stopped = progress.stamp;
-    const bool braking = arm_moves_ && progress.stamp - *goal_->stopped < kMaxBraking;
-    if (!braking) give_up(progress);
+  } else if (goal_->stopped || progress.state == ExecutionState::kStopped) {
+    if (!goal_->stopped) goal_->stopped = progress;
+    // A stopped execution may leave the target at once: then it brakes no longer.
+    const bool braking = progress.state == ExecutionState::kStopped && arm_moves_ &&
+                         progress.stamp - goal_->stopped->stamp < kMaxBraking;
+    if (!braking) give_up(Progress(*goal_->stopped));
   }
 }
 
@@ -114,7 +116,9 @@ void SkillAction::give_up(const Progress& progress) {
   if (progress.cause == Event::kPreempted) {
     goal_->handle.setCanceled(result_of(Result::PREEMPTED, progress.reason), progress.reason);
   } else {
-    const auto code = progress.cause == Event::kTimeUp ? Result::TIME_UP : Result::TARGET_LOST;
+    const auto code = progress.cause == Event::kTimeUp   ? Result::TIME_UP
+                      : progress.cause == Event::kGiveUp ? Result::ARM_FAILED
+                                                         : Result::TARGET_LOST;
     goal_->handle.setAborted(result_of(code, progress.reason), progress.reason);
   }
   goal_.reset();
@@ -132,6 +136,16 @@ void SkillAction::end_run() {
   goal_.reset();
 }
 
+void SkillAction::tell_missing(const std::string& what) {
+  if (!goal_ || goal_->pending) return;
+  prf_msgs::ExecuteSkillFeedback feedback;
+  feedback.state = static_cast<std::uint8_t>(goal_->feedback_state);
+  feedback.reason = what;
+  feedback.cursor = goal_->feedback_cursor;
+  feedback.goal_distance = feedback.axis_distance = -1;
+  goal_->handle.publishFeedback(feedback);
+}
+
 void SkillAction::give_feedback(const Progress& progress) {
   const bool due = !goal_->feedback_given || progress.state != goal_->feedback_state ||
                    progress.stamp - *goal_->feedback_given >= kFeedbackPeriod;
@@ -141,7 +155,7 @@ void SkillAction::give_feedback(const Progress& progress) {
   prf_msgs::ExecuteSkillFeedback feedback;
   feedback.state = static_cast<std::uint8_t>(progress.state);
   feedback.reason = progress.reason;
-  feedback.cursor = progress.fraction;
+  feedback.cursor = goal_->feedback_cursor = progress.fraction;
   feedback.goal_distance = progress.goal_distance ? progress.goal_distance->distance : -1;
   feedback.axis_distance = progress.goal_distance ? progress.goal_distance->axis : -1;
   goal_->handle.publishFeedback(feedback);

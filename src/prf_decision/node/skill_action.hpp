@@ -29,6 +29,8 @@ class SkillAction {
   void see_joints(const sensor_msgs::JointState& joints);
   void update(const Progress& progress);  // after every tick
   void end_run();                         // the data's clock went back
+  // Feedback while no tick comes: what is missing.
+  void tell_missing(const std::string& what);
 
  private:
   using Server = actionlib::ActionServer<prf_msgs::ExecuteSkillAction>;
@@ -38,9 +40,10 @@ class SkillAction {
   struct Current {
     Server::GoalHandle handle;
     bool pending = false;  // until the planner has answered
-    std::optional<Stamp> stopped;
+    std::optional<Progress> stopped;
     std::optional<Stamp> feedback_given;
     ExecutionState feedback_state = ExecutionState::kWaiting;
+    double feedback_cursor = 0;
   };
 
   void on_goal(Server::GoalHandle goal);

@@ -59,7 +59,7 @@ std::pair<Velocities, double> filter(const HmmParams& parameters, const Velociti
   Velocities posterior(velocities.rows(), 3);
   for (Eigen::Index k = 0; k < velocities.rows(); ++k) {
     const Eigen::Vector3d velocity = velocities.row(k).transpose();
-    belief = velocity.array().isNaN().all() ? hmm.predict(belief) : hmm.observe(belief, velocity);
+    belief = velocity.array().isNaN().all() ? hmm.predict(belief) : hmm.observe(belief, {velocity});
     posterior.row(k) = belief.posterior.transpose();
   }
   return {posterior, belief.log_likelihood};

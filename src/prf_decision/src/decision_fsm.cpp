@@ -10,11 +10,11 @@ namespace {
 constexpr std::array<const char*, kExecutionStates> kExecutionStateNames{
     "waiting", "forward", "pause", "reverse", "tracking", "retract", "done", "stopped"};
 constexpr std::array<const char*, kStates> kStateNames{
-    "idle",    "waiting",   "rewind waiting", "forward", "pause", "rewind paused",
-    "reverse", "rewinding", "tracking",       "retract", "done",  "stopped"};
+    "idle",      "waiting",  "rewind waiting", "forward", "pause", "reverse",
+    "rewinding", "tracking", "retract",        "leaving", "done",  "stopped"};
 constexpr std::array<const char*, kEvents> kEventNames{
-    "calm",    "unsteady", "unstable", "clear",    "hazard",    "overdue", "lost",
-    "time up", "complete", "held",     "at start", "preempted", "begin",   "begin away"};
+    "calm", "unsteady", "unstable", "clear", "hazard",   "overdue",   "lost",  "give up",
+    "away", "time up",  "complete", "held",  "at start", "preempted", "begin", "begin away"};
 
 std::string label(const Row& row) {
   return std::string(name(row.event)) + (row.condition == Condition::kDwelled ? " [dwelled]" : "");

@@ -17,18 +17,20 @@ bool waits(ExecutionState state) {
 void ExecutionFsm::begin(Stamp stamp, bool away) {
   cause_ = away ? Event::kBeginAway : Event::kBegin;
   state_ = step(state_, cause_, true);
-  since_ = stamp;
+  since_ = since_but_hazard_ = stamp;
   reason_.clear();
 }
 
 bool ExecutionFsm::fire(Stamp stamp, Event event, const std::string& reason, Duration dwell_time) {
-  const State next = step(state_, event, stamp - since_ >= dwell_time);
+  const Stamp since = event == Event::kUnstable ? since_but_hazard_ : since_;
+  const State next = step(state_, event, stamp - since >= dwell_time);
   if (next == state_) return false;
   const bool shows = published(next) != published(state_);
   state_ = next;
   if (shows) {
     cause_ = event;
     since_ = stamp;
+    if (event != Event::kHazard) since_but_hazard_ = stamp;
     reason_ = reason;
   }
   return true;

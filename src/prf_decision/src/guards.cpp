@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/guards.hpp"
 
-#include <cmath>
 #include <jaco_kinematics/jaco_kinematics.hpp>
 #include <prf_core/require.hpp>
 #include <sstream>
@@ -17,21 +16,27 @@ namespace {
 
 Violation hazard(std::string reason) { return {Event::kHazard, std::move(reason)}; }
 
+int severity(Event event) {
+  return event == Event::kGiveUp ? 3 : event == Event::kLost ? 2 : event == Event::kOverdue ? 1 : 0;
+}
+
 }  // namespace
 
 void GuardParams::validate() const {
-  prf_core::require_positive("max_wait", to_seconds(max_gap), "s");
-  prf_core::require_positive("coast_limits[0]", to_seconds(pause_after), "s");
+  using prf_core::require_between;
+  require_between("max_wait", to_seconds(max_gap), 0.05, 10, "s");
+  require_between("coast_limits[0]", to_seconds(pause_after), 0.05, 60, "s");
+  require_between("coast_limits[1]", to_seconds(reverse_after), 0.05, 60, "s");
+  require_between("coast_limits[2]", to_seconds(stop_after), 0.05, 600, "s");
   require(reverse_after > pause_after, "coast_limits[1]", to_seconds(reverse_after),
           "> coast_limits[0] = " + std::to_string(to_seconds(pause_after)) + " s");
   require(stop_after > reverse_after, "coast_limits[2]", to_seconds(stop_after),
           "> coast_limits[1] = " + std::to_string(to_seconds(reverse_after)) + " s");
-  require(shoulder.allFinite(), "shoulder", shoulder.transpose(), "finite");
-  for (const auto& [name, value] :
-       {std::pair("max_reach", max_reach), std::pair("workspace_radius", workspace_radius),
-        std::pair("max_target_speed", max_target_speed)}) {
-    require(value > 0 && std::isfinite(value), name, value, "> 0 and finite");
-  }
+  for (const double entry : shoulder) require_between("shoulder", entry, -2, 2, "m");
+  require_between("max_reach", max_reach, 0.1, 2, "m");
+  require_between("workspace_radius", workspace_radius, 0.1, 20, "m");
+  require_between("max_target_speed", max_target_speed, 0.01, 10, "m/s");
+  following.validate();
 }
 
 std::optional<Violation> check_has_goal(const GuardParams&, const GuardInput& input) {
@@ -43,6 +48,19 @@ std::optional<Violation> check_ticks(const GuardParams& params, const GuardInput
   const Duration gap = input.since_last_tick;
   if (gap <= params.max_gap) return std::nullopt;
   return hazard(sentence("joint_states silent for ", to_seconds(gap), " s"));
+}
+
+std::optional<Violation> check_following(const GuardParams& params, const GuardInput& input) {
+  const auto& [pause_after, reverse_after, stop_after] = params.following.limits;
+  const Duration lasting = input.following->lasting(input.tick);
+  const auto off = [&](Event event) {
+    return Violation{event,
+                     sentence(input.following->trouble(), ", for ", to_seconds(lasting), " s")};
+  };
+  if (lasting > stop_after) return off(Event::kGiveUp);
+  if (lasting > reverse_after) return off(Event::kOverdue);
+  if (lasting > pause_after) return off(Event::kHazard);
+  return std::nullopt;
 }
 
 std::optional<Violation> check_measured(const GuardParams&, const GuardInput& input) {
@@ -74,20 +92,32 @@ std::optional<Violation> check_status(const GuardParams&, const GuardInput& inpu
   return hazard("predictor has lost the target");
 }
 
+// Comparisons are written so that not-a-number is a violation.
 std::optional<Violation> check_forecast(const GuardParams& params, const GuardInput& input) {
-  for (const auto& [horizon, target, covariance] : input.forecast->predictions) {
+  const auto refused = [&](const prf_core::TargetPrediction& prediction) {
+    const auto& [horizon, target, covariance] = prediction;
     const double distance = (target.pose.position - params.shoulder).norm();
-    if (distance > params.workspace_radius) {
-      return hazard(sentence("forecast ", distance, " m from the shoulder in ", to_seconds(horizon),
-                             " s, limit ", params.workspace_radius, " m"));
+    if (!(distance <= params.workspace_radius)) {
+      return sentence("forecast ", distance, " m from the shoulder in ", to_seconds(horizon),
+                      " s, limit ", params.workspace_radius, " m");
     }
     const double speed = target.linear_velocity.norm();
-    if (speed > params.max_target_speed) {
-      return hazard(sentence("forecast speed ", speed, " m/s in ", to_seconds(horizon),
-                             " s, limit ", params.max_target_speed, " m/s"));
+    if (!(speed <= params.max_target_speed)) {
+      return sentence("forecast speed ", speed, " m/s in ", to_seconds(horizon), " s, limit ",
+                      params.max_target_speed, " m/s");
     }
+    return std::string();
+  };
+  std::string reason;
+  for (const auto& prediction : input.forecast->predictions) {
+    if (prediction.horizon > input.goal_time - input.forecast->stamp) break;
+    if (reason.empty()) reason = refused(prediction);
   }
-  return std::nullopt;
+  if (reason.empty() && !input.forecast->predictions.empty()) {
+    reason = refused(predicted_target(*input.forecast, input.goal_time));
+  }
+  if (reason.empty()) return std::nullopt;
+  return hazard(reason);
 }
 
 std::optional<Violation> check_has_plan(const GuardParams&, const GuardInput& input) {
@@ -108,7 +138,7 @@ std::optional<Violation> check_plan_result(const GuardParams&, const GuardInput&
 std::optional<Violation> check_goal(const GuardParams& params, const GuardInput& input) {
   const Pose goal = goal_at(*input.forecast, *input.plan, input.goal_time).pose;
   const double distance = (goal.position - params.shoulder).norm();
-  if (distance > params.max_reach) {
+  if (!(distance <= params.max_reach)) {
     return hazard(
         sentence("goal ", distance, " m from the shoulder, reach ", params.max_reach, " m"));
   }
@@ -122,11 +152,15 @@ std::optional<Violation> check_goal(const GuardParams& params, const GuardInput&
 
 std::optional<Violation> check_guards(const GuardParams& params, const GuardInput& input,
                                       bool adapted_once) {
+  std::optional<Violation> worst;
   for (const Guard& guard : kGuards) {
     if (adapted_once && !guard.adapted_once) continue;
-    if (auto violation = guard.check(params, input)) return violation;
+    auto violation = guard.check(params, input);
+    if (!violation) continue;
+    if (!worst || severity(violation->event) > severity(worst->event)) worst = violation;
+    if (guard.check != check_following) break;
   }
-  return std::nullopt;
+  return worst;
 }
 
 MovingPose goal_at(const TargetForecast& forecast, const Trajectory& plan, Stamp time) {

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -15,6 +16,7 @@ namespace {
 constexpr double kSumTolerance = 1e-9;        // of probabilities written with ten digits
 constexpr double kSymmetryTolerance = 1e-12;  // m^2/s^2, rounding of a product at 1 m^2/s^2
 constexpr double kMinVariance = 1e-8;         // (0.1 mm/s)^2, far below any sensor's noise
+constexpr double kMaxVariance = kMaxObservedSpeed * kMaxObservedSpeed;
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
@@ -38,11 +40,14 @@ void validate_covariance(const Eigen::Matrix3d& covariance, const std::string& n
   if (!covariance.allFinite()) refuse(name, " is not finite");
   const double asymmetry = (covariance - covariance.transpose()).cwiseAbs().maxCoeff();
   if (asymmetry > kSymmetryTolerance) refuse(name, " differs from its transpose by ", asymmetry);
-  const double smallest =
+  const Eigen::Vector3d eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
-  if (!(smallest >= kMinVariance)) {
-    refuse(name, " has smallest eigenvalue ", smallest, ", must be at least ", kMinVariance);
+          .eigenvalues();
+  if (!(eigenvalues[0] >= kMinVariance)) {
+    refuse(name, " has smallest eigenvalue ", eigenvalues[0], ", must be at least ", kMinVariance);
+  }
+  if (!(eigenvalues[2] <= kMaxVariance)) {
+    refuse(name, " has largest eigenvalue ", eigenvalues[2], ", must be at most ", kMaxVariance);
   }
 }
 
@@ -71,6 +76,10 @@ void HmmParams::validate() const {
   double slower = 0;
   for (std::size_t i = 0; i < kIntents; ++i) {
     if (!mean[i].allFinite()) refuse("mean.", kIntentNames[i], " is not finite");
+    if (!(mean[i].stableNorm() <= kMaxObservedSpeed)) {
+      refuse("mean.", kIntentNames[i], " has ", mean[i].stableNorm(), " m/s, must be at most ",
+             kMaxObservedSpeed);
+    }
     validate_covariance(covariance[i], std::string("covariance.") + kIntentNames[i]);
     const double speed = std::sqrt(mean_square_speed(*this, i));
     if (!(speed > slower)) {
@@ -92,6 +101,7 @@ EmissionModel::EmissionModel(const HmmParams& parameters) : mean_(parameters.mea
     whitening_[i] = lower.inverse();
     log_norm_[static_cast<Eigen::Index>(i)] =
         -1.5 * std::log(2 * M_PI) - lower.diagonal().array().log().sum();
+    precision_trace_[static_cast<Eigen::Index>(i)] = whitening_[i].squaredNorm();
   }
 }
 
@@ -105,29 +115,59 @@ Eigen::Vector3d EmissionModel::log_density(const Eigen::Vector3d& velocity) cons
   return result;
 }
 
+Eigen::Vector3d EmissionModel::log_density(const ObservedMotion& observation) const {
+  if (!(observation.spread >= 0 && std::isfinite(observation.spread))) {
+    refuse("spread = ", observation.spread, ", must be finite and >= 0 m/s");
+  }
+  // stableNorm: the square of 1e300 is infinite.
+  const double speed = observation.velocity.stableNorm();
+  const double cut = speed > kMaxObservedSpeed ? kMaxObservedSpeed / speed : 1.0;
+  const double spread = std::min(observation.spread, kMaxObservedSpeed);
+  return log_density(Eigen::Vector3d(cut * observation.velocity)) -
+         spread * spread / 6 * precision_trace_;
+}
+
+bool is_distribution(const Eigen::Vector3d& values) {
+  return (values.array() >= 0).all() && (values.array() <= 1).all() &&
+         std::abs(values.sum() - 1) <= kSumTolerance;
+}
+
 HmmFilter::HmmFilter(const HmmParams& parameters)
     : parameters_((parameters.validate(), parameters)), emission_(parameters) {}
 
-HmmBelief HmmFilter::initial_belief() const { return {parameters_.initial, false, 0}; }
+HmmBelief HmmFilter::initial_belief() const { return {parameters_.initial, false, 0, false}; }
 
-HmmBelief HmmFilter::predict(const HmmBelief& belief) const {
-  if (!belief.started) return {belief.posterior, true, belief.log_likelihood};
-  const Eigen::Vector3d drifted = parameters_.transition.transpose() * belief.posterior;
-  return {drifted / drifted.sum(), true, belief.log_likelihood};
+HmmBelief HmmFilter::checked(const HmmBelief& belief) const {
+  if (is_distribution(belief.posterior) && std::isfinite(belief.log_likelihood)) return belief;
+  return {parameters_.initial, true, 0, true};
 }
 
-HmmBelief HmmFilter::observe(const HmmBelief& belief, const Eigen::Vector3d& velocity) const {
+HmmBelief HmmFilter::predict(const HmmBelief& belief) const {
+  HmmBelief predicted = checked(belief);
+  if (!belief.started || predicted.was_reset) {
+    predicted.started = true;
+    return predicted;
+  }
+  const Eigen::Vector3d drifted = parameters_.transition.transpose() * predicted.posterior;
+  predicted.posterior = drifted / drifted.sum();
+  return checked(predicted);
+}
+
+HmmBelief HmmFilter::observe(const HmmBelief& belief, const ObservedMotion& observation) const {
+  const Eigen::Vector3d log_density = emission_.log_density(observation);
   const HmmBelief predicted = predict(belief);
+  if (predicted.was_reset && !belief.was_reset) return predicted;
   // Scaled by the largest joint probability, so that a far outlier cannot underflow all states.
-  const Eigen::Vector3d log_joint =
-      predicted.posterior.array().log().matrix() + emission_.log_density(velocity);
+  const Eigen::Vector3d log_joint = predicted.posterior.array().log().matrix() + log_density;
   const double scale = log_joint.maxCoeff();
   const Eigen::Vector3d joint =
       log_joint.unaryExpr([scale](double value) { return std::exp(value - scale); });
-  return {joint / joint.sum(), true, predicted.log_likelihood + scale + std::log(joint.sum())};
+  return checked(
+      {joint / joint.sum(), true, predicted.log_likelihood + scale + std::log(joint.sum()), false});
 }
 
 Intent most_probable(const HmmBelief& belief) {
+  if (belief.was_reset || !is_distribution(belief.posterior)) return Intent::kReverse;
   Eigen::Index best = 0;
   for (Eigen::Index i = 1; i < 3; ++i) {
     if (belief.posterior[i] >= belief.posterior[best]) best = i;

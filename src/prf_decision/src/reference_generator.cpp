@@ -35,12 +35,10 @@ MovingPose at_rest(const Pose& pose) { return {pose, {0, 0, 0}, {0, 0, 0}}; }
 }  // namespace
 
 void ReferenceParams::validate() const {
-  using prf_core::require;
-  require(lead >= Duration{0}, "lead", to_seconds(lead), ">= 0 s");
-  require(approach_length >= 0 && std::isfinite(approach_length), "approach_length",
-          approach_length, ">= 0 m and finite");
-  require(tracking_tolerance > 0 && std::isfinite(tracking_tolerance), "tracking_tolerance",
-          tracking_tolerance, "> 0 m and finite");
+  using prf_core::require_between;
+  require_between("lead", to_seconds(lead), 0, 1, "s");
+  require_between("approach_length", approach_length, 0, 2, "m");
+  require_between("tracking_tolerance", tracking_tolerance, 1e-4, 0.5, "m");
   catch_up.validate();
 }
 
@@ -63,7 +61,18 @@ void ReferenceGenerator::move_cursor(const ReferenceInput& input) {
   if (!moves_cursor(input.state)) return;
   const auto direction =
       input.state == ExecutionState::kForward ? Direction::kForward : Direction::kBack;
-  cursor_ = advance_cursor(*plan_, cursor_, direction, input.since_last_tick);
+  const double next = advance_cursor(*plan_, cursor_, direction, input.since_last_tick);
+  if (!input.follows && (direction == Direction::kForward || leads_away(input, next))) return;
+  cursor_ = next;
+}
+
+// Whether the set-point would leave behind a hand that does not follow.
+bool ReferenceGenerator::leads_away(const ReferenceInput& input, double cursor) const {
+  if (!input.hand) return true;
+  const auto distance = [&](double at) {
+    return (hand_at(*plan_, at, Direction::kStand).pose.position - input.hand->position).norm();
+  };
+  return !(distance(cursor) <= distance(cursor_));
 }
 
 // The target as it is forecast, measured or coasting; without a forecast, where it was last.
@@ -110,9 +119,9 @@ ReferenceResult ReferenceGenerator::step(const ReferenceInput& input) {
         setpoint_ ? limited_setpoint(*setpoint_, *wanted, params_.catch_up, input.since_last_tick)
                   : *wanted;
     setpoint_ = result.setpoint->pose;
-    result.at_start =
-        cursor_ == 0 && are_near(*setpoint_, wanted->pose, params_.tracking_tolerance);
-    tracked = input.state == ExecutionState::kTracking &&
+    result.at_start = cursor_ == 0 && input.hand_on_goal &&
+                      are_near(*setpoint_, wanted->pose, params_.tracking_tolerance);
+    tracked = input.state == ExecutionState::kTracking && input.hand_on_goal &&
               (wanted->pose.position - setpoint_->position).norm() <= params_.tracking_tolerance;
   } else if (!holds(input.state) && setpoint_) {
     result.setpoint = at_rest(*setpoint_);
@@ -130,11 +139,20 @@ std::optional<Duration> ReferenceGenerator::tracked_for(Stamp stamp) const {
   return stamp - *tracked_since_;
 }
 
-std::optional<GoalDistance> ReferenceGenerator::goal_distance(const TargetForecast& forecast,
+bool ReferenceGenerator::is_at_target() const {
+  return is_complete() || approach_.weight(cursor_, params_.approach_length) >= 1;
+}
+
+bool ReferenceGenerator::is_on_skill(const Pose& hand, const PoseTolerance& tolerance) const {
+  return !plan_ || error_between(hand, hand_on_plan(Direction::kStand).pose).is_within(tolerance);
+}
+
+std::optional<GoalDistance> ReferenceGenerator::goal_distance(const Pose& hand,
+                                                              const TargetForecast& forecast,
                                                               Stamp stamp) const {
-  if (!plan_ || !setpoint_ || forecast.predictions.empty()) return std::nullopt;
+  if (!plan_ || forecast.predictions.empty()) return std::nullopt;
   const Pose goal = goal_at(forecast, *plan_, stamp).pose;
-  const Eigen::Vector3d offset = setpoint_->position - goal.position;
+  const Eigen::Vector3d offset = hand.position - goal.position;
   const Eigen::Vector3d axis = goal.orientation * Eigen::Vector3d::UnitZ();
   return GoalDistance{offset.norm(), (offset - offset.dot(axis) * axis).norm()};
 }

@@ -8,10 +8,6 @@
 namespace prf_decision {
 namespace {
 
-void require_positive(const char* name, double value) {
-  prf_core::require(value > 0 && std::isfinite(value), name, value, "> 0 and finite");
-}
-
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& orientation, const Eigen::Vector3d& rotation) {
   if (rotation.norm() == 0) return orientation;
   return (Eigen::Quaterniond(prf_core::exp_so3(rotation)) * orientation).normalized();
@@ -29,9 +25,9 @@ Eigen::Vector3d closing_velocity(const Eigen::Vector3d& gap, double speed, doubl
 }  // namespace
 
 void CatchUpParams::validate() const {
-  require_positive("catch_up_speed linear", linear);
-  require_positive("catch_up_speed angular", angular);
-  require_positive("catch_up_time", time_constant);
+  prf_core::require_between("catch_up_speed linear", linear, 0.01, 1, "m/s");
+  prf_core::require_between("catch_up_speed angular", angular, 0.01, 4, "rad/s");
+  prf_core::require_between("catch_up_time", time_constant, 0.01, 5, "s");
 }
 
 MovingPose limited_setpoint(const Pose& previous, const MovingPose& reference,

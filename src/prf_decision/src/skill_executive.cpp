@@ -12,16 +12,13 @@ namespace {
 
 using prf_core::require;
 
-Event event_of(Intent intent) {
-  switch (intent) {
-    case Intent::kForward:
-      return Event::kCalm;
-    case Intent::kPause:
-      return Event::kUnsteady;
-    case Intent::kReverse:
-      break;
-  }
-  return Event::kUnstable;
+constexpr double kLongestTime = 3600;   // s, of an execution
+constexpr double kShortestLimit = 0.1;  // s, ten ticks
+constexpr double kLongestDwell = 5;     // s, that the HMM's reaction may wait
+
+bool is_finite(const MovingPose& pose) {
+  return pose.pose.position.allFinite() && pose.pose.orientation.coeffs().allFinite() &&
+         pose.linear_velocity.allFinite() && pose.angular_velocity.allFinite();
 }
 
 const DecisionParams& validated(const DecisionParams& params) {
@@ -32,17 +29,18 @@ const DecisionParams& validated(const DecisionParams& params) {
 }  // namespace
 
 void DecisionParams::validate() const {
-  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
-  require(dwell_time >= Duration{0}, "dwell_time", to_seconds(dwell_time), ">= 0 s");
-  require(time_limit > Duration{0}, "time_limit", to_seconds(time_limit), "> 0 s");
+  prf_core::require_between("hold_time", to_seconds(hold_time), 0, kLongestTime, "s");
+  prf_core::require_between("dwell_time", to_seconds(dwell_time), 0, kLongestDwell, "s");
+  prf_core::require_between("time_limit", to_seconds(time_limit), kShortestLimit, kLongestTime,
+                            "s");
   reference.validate();
   guards.validate();
   hmm.validate();
 }
 
 void SkillGoal::validate() const {
-  require(time_limit >= Duration{0}, "time_limit", to_seconds(time_limit), ">= 0 s");
-  require(hold_time >= Duration{0}, "hold_time", to_seconds(hold_time), ">= 0 s");
+  prf_core::require_between("time_limit", to_seconds(time_limit), 0, kLongestTime, "s");
+  prf_core::require_between("hold_time", to_seconds(hold_time), 0, kLongestTime, "s");
   require(!resume || demonstration.empty(), "demonstration", demonstration,
           "empty with resume, which goes on with the one before");
 }
@@ -74,14 +72,18 @@ ExecutiveResult SkillExecutive::update(const Tick& tick) {
   // The planner's result is for the last tick: before this one's forecasts.
   if (tick.plan_result) receive_plan(*tick.plan_result);
   belief_.update(tick.forecasts);
+  following_.update(params_.guards.following,
+                    {tick.stamp, last_setpoint_, tick.hand, tick.control, tick.control_silent});
   end_unanswered_request(tick.stamp);
   if (goals_.next && !is_requesting()) begin_execution(tick.stamp);
   switch_demonstration();
-  const Assessment assessment = assess(tick);
+  const Assessment assessment =
+      assessor_.assess(params_.guards, params_.dwell_time, belief_, assessment_input(tick));
   change_state(tick, assessment);
   const std::optional<MovingPose> setpoint = move(tick, assessment.violation);
   last_tick_ = tick.stamp;
-  return {progress(tick.stamp), setpoint};
+  last_setpoint_ = setpoint ? std::optional(setpoint->pose) : std::nullopt;
+  return {progress(tick), setpoint};
 }
 
 void SkillExecutive::receive_plan(const PlanResult& result) {
@@ -127,6 +129,7 @@ GuardInput SkillExecutive::guard_input(const Tick& tick) const {
   input.tick = tick.stamp;
   input.goal_time = tick.stamp + params_.reference.lead;
   input.since_last_tick = tick.stamp - *last_tick_;
+  input.following = &following_;
   input.has_goal = fsm_.state() != State::kIdle;
   input.measured = belief_.measured();
   input.forecast = belief_.forecast().get();
@@ -137,21 +140,15 @@ GuardInput SkillExecutive::guard_input(const Tick& tick) const {
   return input;
 }
 
-SkillExecutive::Assessment SkillExecutive::assess(const Tick& tick) const {
-  if (auto violation = check_guards(params_.guards, guard_input(tick), adapts_once())) {
-    return {violation->event, std::move(violation->reason), true};
-  }
-  if (is_rewinding(fsm_.state())) return {Event::kClear, "back to the start of the skill", false};
-  if (adapts_once()) return {Event::kCalm, "", false};
-  const Intent intent = belief_.intent();
-  if (intent == Intent::kForward) return {Event::kCalm, "", false};
-  const auto index = static_cast<std::size_t>(intent);
-  const double speed = belief_.forecast()->predictions[0].target.linear_velocity.norm();
-  return {event_of(intent),
-          sentence("belief in ", kIntentNames[index], " ",
-                   belief_.posterior()[static_cast<Eigen::Index>(index)], ", target speed ", speed,
-                   " m/s"),
-          false};
+AssessmentInput SkillExecutive::assessment_input(const Tick& tick) const {
+  AssessmentInput input;
+  input.guards = guard_input(tick);
+  input.state = fsm_.state();
+  input.adapted_once = adapts_once();
+  input.at_start = reference_.cursor() == 0;
+  input.at_target = reference_.is_at_target();
+  input.away = tick.hand && !reference_.is_on_skill(*tick.hand, params_.guards.following.path);
+  return input;
 }
 
 // At most one change per tick: the first event, in this order, that has a row.
@@ -162,11 +159,21 @@ void SkillExecutive::change_state(const Tick& tick, const Assessment& assessment
   if (std::exchange(goals_.preempt_requested, false) && fire(Event::kPreempted, "preempted")) {
     return;
   }
-  const std::string& reason = assessment.reason;
+  std::string reason = assessment.reason;
+  if (reason.empty() && fsm_.state() == State::kTracking && !following_.is_on_goal()) {
+    const PoseError error = following_.error().value_or(PoseError());
+    reason = sentence("the hand is ", error.position, " m and ", error.rotation,
+                      " rad from its set-point");
+  }
   const Duration elapsed = tick.stamp - goals_.began;
   const Duration limit = goals_.current.time_limit;
   if (elapsed > limit && fire(Event::kTimeUp, sentence("not done within ", to_seconds(limit), " s",
                                                        reason.empty() ? "" : ": ", reason))) {
+    return;
+  }
+  // Beside a hazard the HMM may be the more cautious one.
+  if (assessment.event == Event::kHazard && !assessment.unstable.empty() &&
+      fire(Event::kUnstable, assessment.unstable)) {
     return;
   }
   if (fire(assessment.event, reason)) return;
@@ -193,18 +200,20 @@ const TargetForecast* SkillExecutive::followed_forecast(const Tick& tick) const 
 }
 
 std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation) {
-  const ReferenceResult result =
-      reference_.step({tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
-                       followed_forecast(tick), violation});
+  const ReferenceResult result = reference_.step(
+      {tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
+       followed_forecast(tick), violation, !following_.is_off(), following_.is_on_goal()});
   if (result.at_start && !plans_.demonstration().is_returning()) {
     fsm_.fire(tick.stamp, Event::kAtStart, "", params_.dwell_time);
   }
+  if (result.setpoint && !is_finite(*result.setpoint)) return std::nullopt;
   return result.setpoint;
 }
 
-Progress SkillExecutive::progress(Stamp stamp) const {
+Progress SkillExecutive::progress(const Tick& tick) const {
   Progress progress;
-  progress.stamp = stamp;
+  progress.stamp = tick.stamp;
+  progress.following = following_.error();
   progress.state = fsm_.published_state();
   progress.cause = fsm_.cause();
   progress.reason = fsm_.reason();
@@ -222,7 +231,9 @@ Progress SkillExecutive::progress(Stamp stamp) const {
   }
   if (const auto& forecast = belief_.forecast()) {
     progress.forecast_stamp = forecast->stamp;
-    progress.goal_distance = reference_.goal_distance(*forecast, stamp);
+    if (tick.hand) {
+      progress.goal_distance = reference_.goal_distance(*tick.hand, *forecast, tick.stamp);
+    }
   }
   return progress;
 }

@@ -23,16 +23,18 @@ const GateParams& validated(const GateParams& params) {
 }  // namespace
 
 void GateParams::validate() const {
-  using prf_core::require_positive;
-  require_positive("pipeline_delay", to_seconds(pipeline_delay), "s");
-  require_positive("camera_period less 5 ms", to_seconds(camera_period - kPeriodMargin), "s");
-  require_positive("max_wait", to_seconds(max_wait), "s");
+  using prf_core::require_between;
+  require_between("pipeline_delay", to_seconds(pipeline_delay), 1e-3, 1, "s");
+  require_between("camera_period", to_seconds(camera_period), 6e-3, 1, "s");
+  require_between("control_delay", to_seconds(control_delay), 0.01, 1, "s");
+  require_between("max_wait", to_seconds(max_wait), 0.05, 10, "s");
 }
 
 TickGate::TickGate(const GateParams& params)
     : params_(validated(params)),
       forecast_silence_(params.max_wait),
-      plan_silence_(params.max_wait) {}
+      plan_silence_(params.max_wait),
+      control_silence_(params.max_wait) {}
 
 void TickGate::begin_new_run() { *this = TickGate(params_); }
 
@@ -74,6 +76,18 @@ PushResult TickGate::push_plan_result(PlanResult result) {
   return PushResult::kAccepted;
 }
 
+PushResult TickGate::push_control_report(ControlReport report) {
+  const Stamp stamp = report.stamp;
+  // A report follows its tick, as a plan does.
+  if (!first_tick_ || stamp < *first_tick_) return PushResult::kOld;
+  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  if (!prf_core::is_accepted(control_reports_.push(stamp, std::move(report)))) {
+    return PushResult::kOld;
+  }
+  control_silence_.heard();
+  return PushResult::kAccepted;
+}
+
 bool TickGate::is_far_ahead(Stamp stamp) const {
   const auto newest = ticks_.clock().newest();
   return newest && stamp > *newest + kClockJump;
@@ -94,16 +108,24 @@ bool TickGate::plan_result_is_due() const {
   return awaited_plan_result_ && (!newest || *newest < *awaited_plan_result_);
 }
 
+bool TickGate::control_report_is_due(Stamp tick) const {
+  const Stamp due = tick - params_.control_delay;
+  const auto newest = control_reports_.clock().newest();
+  return due >= *first_tick_ && (!newest || *newest < due);
+}
+
 std::optional<Tick> TickGate::next() {
   if (ticks_.items().empty()) return std::nullopt;
   Tick tick;
   tick.stamp = ticks_.items().front().stamp;
   const Stamp newest = *ticks_.clock().newest();
-  // Both are evaluated: each monitor must learn of its own silence.
+  // All are evaluated: each monitor must learn of its own silence.
   const bool waits_for_forecast =
       forecast_may_be_due(tick.stamp) && !forecast_silence_.gives_up(tick.stamp, newest);
   const bool waits_for_plan = plan_result_is_due() && !plan_silence_.gives_up(tick.stamp, newest);
-  if (waits_for_forecast || waits_for_plan) return std::nullopt;
+  const bool waits_for_report =
+      control_report_is_due(tick.stamp) && !control_silence_.gives_up(tick.stamp, newest);
+  if (waits_for_forecast || waits_for_plan || waits_for_report) return std::nullopt;
 
   tick.hand = ticks_.pop_until(tick.stamp)->message;
   while (auto forecast = forecasts_.pop_until(tick.stamp - params_.pipeline_delay)) {
@@ -112,11 +134,16 @@ std::optional<Tick> TickGate::next() {
   while (auto result = plan_results_.pop_until(tick.stamp - Duration{1})) {
     tick.plan_result = std::move(result->message);
   }
+  while (auto report = control_reports_.pop_until(tick.stamp - params_.control_delay)) {
+    control_ = std::move(report->message);
+  }
+  tick.control = control_;
   const bool named = std::any_of(tick.forecasts.begin(), tick.forecasts.end(),
                                  [](const ForecastArrival& arrival) { return arrival.forecast; });
   if (named) awaited_plan_result_ = tick.stamp;
   tick.forecast_silent = forecast_silence_.is_silent();
   tick.planner_silent = plan_silence_.is_silent();
+  tick.control_silent = control_silence_.is_silent();
   return tick;
 }
 

@@ -29,7 +29,10 @@ bool listed(State state, Event event) {
 // What is demanded of the decision, written down a second time and independently.
 const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kWaiting, Event::kCalm}, State::kForward},
+    {{State::kWaiting, Event::kAway}, State::kRewinding},
+    {{State::kWaiting, Event::kOverdue}, State::kReverse},
     {{State::kRewindWaiting, Event::kClear}, State::kRewinding},
+    {{State::kRewindWaiting, Event::kOverdue}, State::kRewinding},
     {{State::kForward, Event::kUnsteady}, State::kPause},
     {{State::kForward, Event::kUnstable}, State::kReverse},
     {{State::kForward, Event::kHazard}, State::kPause},
@@ -38,13 +41,8 @@ const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kPause, Event::kCalm}, State::kForward},
     {{State::kPause, Event::kUnstable}, State::kReverse},
     {{State::kPause, Event::kOverdue}, State::kReverse},
-    {{State::kRewindPaused, Event::kClear}, State::kRewinding},
-    {{State::kRewindPaused, Event::kOverdue}, State::kRewinding},
-    {{State::kRewindPaused, Event::kAtStart}, State::kPause},
     {{State::kReverse, Event::kCalm}, State::kForward},
     {{State::kReverse, Event::kUnsteady}, State::kPause},
-    {{State::kReverse, Event::kHazard}, State::kPause},
-    {{State::kRewinding, Event::kHazard}, State::kRewindPaused},
     {{State::kRewinding, Event::kAtStart}, State::kReverse},
     {{State::kTracking, Event::kUnstable}, State::kRetract},
     {{State::kTracking, Event::kHazard}, State::kPause},
@@ -52,22 +50,29 @@ const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kTracking, Event::kHeld}, State::kDone},
     {{State::kRetract, Event::kCalm}, State::kForward},
     {{State::kRetract, Event::kUnsteady}, State::kPause},
-    {{State::kRetract, Event::kHazard}, State::kPause},
+    {{State::kLeaving, Event::kAtStart}, State::kIdle},
+    {{State::kLeaving, Event::kGiveUp}, State::kStopped},
+    {{State::kDone, Event::kUnstable}, State::kLeaving},
+    {{State::kDone, Event::kOverdue}, State::kLeaving},
+    {{State::kStopped, Event::kUnstable}, State::kLeaving},
+    {{State::kStopped, Event::kOverdue}, State::kLeaving},
 };
 
 bool rests(State state) {
-  return state == State::kIdle || state == State::kDone || state == State::kStopped;
+  return state == State::kIdle || state == State::kLeaving || state == State::kDone ||
+         state == State::kStopped;
 }
 
 State demanded(State state, Event event) {
   if (rests(state) && event == Event::kBegin) return State::kWaiting;
   if (rests(state) && event == Event::kBeginAway) return State::kRewindWaiting;
+  const auto found = kDemanded.find({state, event});
+  if (found != kDemanded.end()) return found->second;
   if (rests(state)) return state;
   const bool waits = published(state) == ExecutionState::kWaiting;
   if (event == Event::kTimeUp || event == Event::kPreempted) return State::kStopped;
-  if (event == Event::kLost && !waits) return State::kStopped;
-  const auto found = kDemanded.find({state, event});
-  return found == kDemanded.end() ? state : found->second;
+  const bool given_up = event == Event::kLost || event == Event::kGiveUp;
+  return given_up && !waits ? State::kStopped : state;
 }
 
 TEST(DecisionFsm, GoesWhereEveryRowSaysAndStaysOnEveryUnlistedPair) {
@@ -81,6 +86,7 @@ TEST(DecisionFsm, GoesWhereEveryRowSaysAndStaysOnEveryUnlistedPair) {
   }
 }
 
+// Fault 31: HMM chatters at a threshold -> at most one change per dwell time
 TEST(DecisionFsm, LetsOnlyTheHmmWaitForTheDwellTime) {
   const std::set<Event> from_hmm{Event::kCalm, Event::kUnsteady, Event::kUnstable};
   for (const Row& row : kTable) {
@@ -99,11 +105,38 @@ TEST(DecisionFsm, ListsNoPairTwice) {
   }
 }
 
-TEST(DecisionFsm, LeavesIdleDoneAndStoppedOnlyForANewGoal) {
+TEST(DecisionFsm, EndsAnExecutionUntilANewGoalAndLeavesTheTargetMeanwhile) {
+  for (const State state : kAllStates) EXPECT_EQ(is_resting(state), rests(state)) << name(state);
   for (const Event event : kAllEvents) {
     const bool begins = event == Event::kBegin || event == Event::kBeginAway;
-    for (const State state : {State::kIdle, State::kDone, State::kStopped}) {
-      EXPECT_EQ(step(state, event, true) != state, begins) << name(state) << " + " << name(event);
+    for (const State state : kAllStates) {
+      if (!rests(state)) continue;
+      EXPECT_EQ(rests(step(state, event, true)), !begins) << name(state) << " + " << name(event);
+    }
+  }
+}
+
+// In this order of danger, no event leads to a bolder state than the one before it.
+TEST(DecisionFsm, GetsNoBolderAsDangerGrows) {
+  const std::array danger{Event::kCalm, Event::kUnsteady, Event::kHazard, Event::kUnstable,
+                          Event::kOverdue};
+  for (const State state : kAllStates) {
+    int boldest = 2;
+    for (const Event event : danger) {
+      const int after = boldness(step(state, event, true));
+      EXPECT_LE(after, boldest) << name(state) << " + " << name(event);
+      boldest = after;
+    }
+  }
+}
+
+// Whatever makes the hand pause outside makes it leave the target when it lasts: overdue.
+TEST(DecisionFsm, LeavesEveryStateAtTheTargetWhenAHazardLasts) {
+  for (const State state : kAllStates) {
+    if (state == State::kIdle) continue;  // at the start, or before the first goal
+    EXPECT_EQ(boldness(step(state, Event::kOverdue, true)), 0) << name(state);
+    if (boldness(state) == 0) {
+      EXPECT_EQ(step(state, Event::kHazard, true), state) << name(state);
     }
   }
 }
@@ -128,7 +161,7 @@ TEST(DecisionFsm, PublishesEveryStateOfTheMessage) {
   for (const State state : kAllStates) shown.insert(published(state));
   EXPECT_EQ(shown.size(), kExecutionStates);
   EXPECT_EQ(published(State::kIdle), ExecutionState::kWaiting);
-  EXPECT_EQ(published(State::kRewindPaused), ExecutionState::kPause);
+  EXPECT_EQ(published(State::kLeaving), ExecutionState::kRetract);
   EXPECT_EQ(published(State::kRewinding), ExecutionState::kReverse);
 }
 
@@ -149,6 +182,17 @@ TEST(ExecutionFsm, KeepsSinceWhenAndWhyWhereThePublishedStateStays) {
   EXPECT_EQ(fsm.reason(), "");
 }
 
+TEST(ExecutionFsm, DoesNotCountTheBeginningOfAHazardWhenTheTargetIsUnstable) {
+  const Duration dwell = from_seconds(0.3);
+  ExecutionFsm fsm;
+  fsm.begin(from_seconds(10), false);
+  EXPECT_TRUE(fsm.fire(from_seconds(10), Event::kCalm, "", dwell));
+  EXPECT_TRUE(fsm.fire(from_seconds(11), Event::kHazard, "too fast", dwell));
+  EXPECT_FALSE(fsm.fire(from_seconds(11.1), Event::kCalm, "", dwell));
+  EXPECT_TRUE(fsm.fire(from_seconds(11.1), Event::kUnstable, "", dwell));
+  EXPECT_EQ(fsm.state(), State::kReverse);
+}
+
 TEST(DecisionFsm, PrintsEveryRowInBothForms) {
   const auto count = [](const std::string& text, const std::string& part) {
     std::size_t number = 0;
@@ -161,7 +205,7 @@ TEST(DecisionFsm, PrintsEveryRowInBothForms) {
   EXPECT_EQ(count(markdown, " → "), kTable.size() + 1);
   EXPECT_NE(markdown.find("| tracking | tracking | unstable [dwelled] → retract, "),
             std::string::npos);
-  EXPECT_NE(markdown.find("| rewinding | reverse | hazard → rewind paused, "), std::string::npos);
+  EXPECT_NE(markdown.find("| rewinding | reverse | at start → reverse, "), std::string::npos);
   EXPECT_EQ(count(dot, " -> "), kTable.size());
   EXPECT_NE(dot.find("tracking -> done [label=\"held\"];"), std::string::npos);
 }

@@ -13,8 +13,11 @@ namespace {
 
 constexpr Stamp kNow = std::chrono::seconds(50);
 
+const FollowingMonitor kFollows;
+
 GuardInput input_with(const TargetForecast& forecast) {
   GuardInput input;
+  input.following = &kFollows;
   input.tick = input.goal_time = kNow;
   input.has_goal = true;
   input.measured = kNow;
@@ -29,6 +32,7 @@ std::optional<Violation> age_violation(double age) {
   return check_age(usual_guards(), input);
 }
 
+// Fault 15: tag lost for longer than T1, T2, T3 -> pause, go back, give up
 TEST(Guards, GradeTheAgeOfTheLastMeasurement) {
   EXPECT_FALSE(age_violation(0.3));
   EXPECT_EQ(age_violation(0.31)->event, Event::kHazard);
@@ -39,10 +43,14 @@ TEST(Guards, GradeTheAgeOfTheLastMeasurement) {
 
 std::string forecast_violation(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
   const TargetForecast forecast = forecast_of(kNow, position, velocity);
-  const auto violation = check_forecast(usual_guards(), input_with(forecast));
+  GuardInput input = input_with(forecast);
+  input.goal_time = kNow + from_seconds(0.5);
+  const auto violation = check_forecast(usual_guards(), input);
   return violation ? violation->reason : "";
 }
 
+// Fault 20: predictor diverges or leaves the workspace -> forecast refused, pause whatever the HMM
+// says
 TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
   const Eigen::Vector3d target(0.9, 0, 0.65);
   EXPECT_EQ(forecast_violation(target, {1.4, 0, 0}), "");
@@ -52,6 +60,32 @@ TEST(Guards, RefuseAForecastThatLeavesTheWorkspace) {
             "forecast 2.15 m from the shoulder in 0.50 s, limit 2.00 m");
   EXPECT_EQ(forecast_violation(target, {0, 1.6, 0}),
             "forecast speed 1.60 m/s in 0.00 s, limit 1.50 m/s");
+}
+
+TEST(Guards, JudgeAForecastNoFartherAheadThanTheExecutionUsesIt) {
+  TargetForecast forecast = forecast_of(kNow, {0.9, 0, 0.65}, {0, 0, 0});
+  forecast.predictions[2].target.pose.position.x() = 30;  // in 0.5 s; at 0.1 s it is still right
+  GuardInput input = input_with(forecast);
+  input.goal_time = kNow + from_seconds(0.1);
+  EXPECT_FALSE(check_forecast(usual_guards(), input));
+  input.goal_time = kNow + from_seconds(0.2);
+  EXPECT_TRUE(check_forecast(usual_guards(), input));
+}
+
+// Fault 43, A5: a prediction that is not a number -> a violation, as every comparison that it fails
+TEST(Guards, TakeNotANumberForAViolation) {
+  TargetForecast forecast = forecast_of(kNow, {0.9, 0, 0.65}, {0, 0, 0});
+  forecast.predictions[0].target.pose.position.x() = NAN;
+  EXPECT_TRUE(check_forecast(usual_guards(), input_with(forecast)));
+  forecast = forecast_of(kNow, {0.9, 0, 0.65}, {0, 0, 0});
+  forecast.predictions[0].target.linear_velocity.x() = NAN;
+  EXPECT_TRUE(check_forecast(usual_guards(), input_with(forecast)));
+  const Trajectory plan = straight_skill();
+  GuardInput input = input_with(forecast);
+  input.plan = &plan;
+  forecast.predictions[0].target.linear_velocity.setZero();
+  forecast.predictions[0].target.pose.position.x() = NAN;
+  EXPECT_TRUE(check_goal(usual_guards(), input));
 }
 
 // The hand at this position, looking along x.
@@ -66,6 +100,7 @@ std::string goal_violation(const Eigen::Vector3d& position) {
   return violation ? violation->reason : "";
 }
 
+// Fault 24: target out of reach -> pause, and the reason says how far it is
 TEST(Guards, RefuseAGoalOutOfReach) {
   EXPECT_EQ(goal_violation({0.9, 0, 0.2755}), "");
   EXPECT_EQ(goal_violation({0, -1.02, 0.2755}), "goal 1.02 m from the shoulder, reach 0.95 m");
@@ -82,6 +117,8 @@ TEST(Guards, AreTriedInTheOrderOfTheirTable) {
   const Trajectory plan = straight_skill();
   GuardInput input = input_with(near);
   input.plan = &plan;
+  FollowingMonitor off;
+  off.update(usual_guards().following, {kNow - from_seconds(0.2), {}, {}, {}, false});
   const std::vector<std::pair<std::string, std::function<void(GuardInput&)>>> spoilt{
       {"goal 1.22 m", [](auto&) {}},
       {"planner has no plan: x", [](auto& i) { i.no_plan = "x"; }},
@@ -92,6 +129,7 @@ TEST(Guards, AreTriedInTheOrderOfTheirTable) {
       {"forecast silent", [](auto& i) { i.forecast_silent = true; }},
       {"no measurement", [](auto& i) { i.measured = kNow - from_seconds(0.4); }},
       {"target not seen yet", [](auto& i) { i.measured.reset(); }},
+      {"the measured hand is unknown", [&](auto& i) { i.following = &off; }},
       {"joint_states silent", [](auto& i) { i.since_last_tick = from_seconds(0.31); }},
       {"no goal yet", [](auto& i) { i.has_goal = false; }}};
   ASSERT_EQ(spoilt.size(), kGuards.size());
@@ -103,10 +141,26 @@ TEST(Guards, AreTriedInTheOrderOfTheirTable) {
     EXPECT_EQ(violation->reason.rfind(reason, 0), 0u) << violation->reason;
     const Guard& guard = kGuards[kGuards.size() - 1 - i];
     EXPECT_NE(std::string(guard.events).find(name(violation->event)), std::string::npos);
-    // Adapted once, only goal, ticks and plan count.
+    // Adapted once, only goal, ticks, arm and plan count.
     const auto once = check_guards(usual_guards(), input, true);
     EXPECT_EQ(once && once->reason == violation->reason, guard.adapted_once) << reason;
   }
+}
+
+TEST(Guards, LetTheGraverOfAnArmThatIsOffAndATargetThatIsOldCount) {
+  const TargetForecast forecast = forecast_of(kNow, {0.9, 0, 0.65}, {0, 0, 0});
+  GuardInput input = input_with(forecast);
+  FollowingMonitor off;
+  off.update(usual_guards().following, {kNow - from_seconds(0.2), {}, {}, {}, false});
+  input.following = &off;
+  EXPECT_EQ(check_guards(usual_guards(), input, false)->event, Event::kHazard);
+  input.measured = kNow - from_seconds(1.5);
+  EXPECT_EQ(check_guards(usual_guards(), input, false)->event, Event::kOverdue);
+  FollowingMonitor longer;
+  longer.update(usual_guards().following, {kNow - from_seconds(5.1), {}, {}, {}, false});
+  input.following = &longer;
+  input.measured = kNow - from_seconds(2.5);
+  EXPECT_EQ(check_guards(usual_guards(), input, false)->event, Event::kGiveUp);
 }
 
 TEST(Guards, RefuseTheirOwnParametersByName) {
@@ -119,6 +173,16 @@ TEST(Guards, RefuseTheirOwnParametersByName) {
       {"max_reach", [](auto& g) { g.max_reach = 0; }},
       {"workspace_radius", [](auto& g) { g.workspace_radius = INFINITY; }},
       {"max_target_speed", [](auto& g) { g.max_target_speed = NAN; }},
+      {"max_reach", [](auto& g) { g.max_reach = 1e308; }},
+      {"workspace_radius", [](auto& g) { g.workspace_radius = 5e-324; }},
+      {"max_target_speed", [](auto& g) { g.max_target_speed = 11; }},
+      {"shoulder", [](auto& g) { g.shoulder.z() = 3; }},
+      {"coast_limits[2]", [](auto& g) { g.stop_after = from_seconds(1e5); }},
+      {"following_tolerance[0]", [](auto& g) { g.following.path.position = 0; }},
+      {"following_tolerance[1]", [](auto& g) { g.following.path.rotation = 4; }},
+      {"goal_tolerance[0]", [](auto& g) { g.following.goal.position = NAN; }},
+      {"following_limits[0]", [](auto& g) { g.following.limits[0] = Duration{0}; }},
+      {"following_limits[2]", [](auto& g) { g.following.limits[2] = g.following.limits[1]; }},
   };
   for (const auto& [culprit, spoil] : catalogue) {
     GuardParams guards = usual_guards();

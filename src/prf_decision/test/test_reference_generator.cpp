@@ -16,6 +16,7 @@ ReferenceInput input_at(int tick, ExecutionState state) {
   input.stamp = kStart + tick * kTickPeriod;
   input.since_last_tick = kTickPeriod;
   input.state = state;
+  input.hand_on_goal = true;
   return input;
 }
 

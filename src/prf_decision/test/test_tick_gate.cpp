@@ -8,29 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scenario.hpp"
+#include "gate_world.hpp"
 
 namespace prf_decision {
 namespace {
-
-using std::chrono::milliseconds;
-
-const GateParams kGate{milliseconds(60), from_seconds(1 / 30.0), milliseconds(300)};
-
-ForecastArrival forecast(Stamp stamp) { return {stamp, std::make_shared<TargetForecast>()}; }
-
-PlanResult plan_result(Stamp stamp) { return {stamp, std::make_shared<Trajectory>(), ""}; }
-
-// Line per tick: its stamp, the forecasts and the plan result used from it on, what is silent.
-std::string describe(const Tick& tick) {
-  std::ostringstream line;
-  line << tick.stamp.count() << ":";
-  for (const auto& arrival : tick.forecasts) line << " f" << arrival.stamp.count();
-  if (tick.plan_result) line << " a" << tick.plan_result->stamp.count();
-  if (tick.forecast_silent) line << " forecast_silent";
-  if (tick.planner_silent) line << " planner_silent";
-  return line.str() + "\n";
-}
 
 bool names_a_forecast(const Tick& tick) {
   for (const auto& arrival : tick.forecasts) {
@@ -68,23 +49,30 @@ std::string deliver(const Sequences& sequences, std::mt19937& random) {
   TickGate gate(kGate);
   std::string processed;
   std::deque<Stamp> requests;
+  std::deque<Stamp> reports;
   std::size_t ticks = 0;
   std::size_t forecasts = 0;
   Stamp waiting_since = sequences.ticks[0];
-  std::discrete_distribution<int> bias({1, 1, 1});
+  std::discrete_distribution<int> bias({1, 1, 1, 1});
   for (;;) {
     const bool may_tick =
         ticks < sequences.ticks.size() && sequences.ticks[ticks] - waiting_since <= kGate.max_wait;
     const bool may_forecast = forecasts < sequences.forecasts.size() &&
                               (ticks == 0 || sequences.forecasts[forecasts] <
                                                  sequences.ticks[ticks - 1] + milliseconds(900));
-    if (!may_tick && !may_forecast && requests.empty()) break;
+    if (!may_tick && !may_forecast && requests.empty() && reports.empty()) break;
     switch (bias(random)) {
       case 0:
         if (may_tick) gate.push_tick(sequences.ticks[ticks++]);
         break;
       case 1:
         if (may_forecast) gate.push_forecast(forecast(sequences.forecasts[forecasts++]));
+        break;
+      case 2:
+        if (!reports.empty()) {
+          gate.push_control_report(report(reports.front()));
+          reports.pop_front();
+        }
         break;
       default:
         if (!requests.empty()) {
@@ -96,10 +84,12 @@ std::string deliver(const Sequences& sequences, std::mt19937& random) {
     if (random() % 20 == 0) {
       const double a = static_cast<double>(1 + random() % 20);
       const double b = static_cast<double>(1 + random() % 20);
-      bias = std::discrete_distribution<int>({a, b, 1});
+      bias = std::discrete_distribution<int>({a, b, 1, 1});
     }
     while (const auto tick = gate.next()) {
-      processed += describe(*tick);
+      const auto& control = tick->control;
+      processed += (control ? std::to_string(control->stamp.count()) : "") + " " + describe(*tick);
+      reports.push_back(tick->stamp);
       if (names_a_forecast(*tick)) requests.push_back(tick->stamp);
       waiting_since = tick->stamp + kTickPeriod;
     }
@@ -120,18 +110,6 @@ TEST(TickGate, ProcessesTheSameSequenceWhateverTheInterleaving) {
     }
   }
 }
-
-// Pushes ticks 0 .. count-1 and gives back what was processed.
-std::string tick_through(TickGate& gate, int from, int to) {
-  std::string processed;
-  for (int i = from; i < to; ++i) {
-    gate.push_tick(i * kTickPeriod);
-    while (const auto tick = gate.next()) processed += describe(*tick);
-  }
-  return processed;
-}
-
-std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
 TEST(TickGate, UsesAForecastFromTheFirstTickAfterThePipelineDelay) {
   TickGate gate(kGate);
@@ -179,88 +157,41 @@ TEST(TickGate, GivesUpOnASilentPlannerAndWaitsAgainOnceItIsHeard) {
   EXPECT_EQ(describe(*gate.next()), "390000000: a370000000\n");
 }
 
-TEST(TickGate, DropsDuplicatesAndStampsFarAhead) {
+TEST(TickGate, UsesTheReportOnATickAfterTheControlDelayAndWaitsForIt) {
   TickGate gate(kGate);
-  EXPECT_EQ(gate.push_tick(Stamp{0}), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_tick(Stamp{0}), PushResult::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(30))), PushResult::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(10))), PushResult::kOld);
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(1001))), PushResult::kFarAhead);
-  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kOld);
-  EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(1001))), PushResult::kFarAhead);
-}
-
-TEST(TickGate, DropsEverythingWhenTheTicksGoBack) {
-  TickGate gate(kGate);
-  gate.push_forecast(forecast(Stamp{0}));
-  tick_through(gate, 0, 8);
-  gate.push_tick(milliseconds(1000));
-  gate.push_tick(milliseconds(2000));
-  TickGate fresh(kGate);
-  for (const int ms : {40, 50}) EXPECT_EQ(gate.push_tick(milliseconds(ms)), PushResult::kOld);
-  EXPECT_EQ(gate.push_tick(milliseconds(60)), PushResult::kNewRun);
-  fresh.push_tick(milliseconds(60));
-  EXPECT_EQ(describe(*gate.next()), describe(*fresh.next()));
-  EXPECT_EQ(gate.push_forecast(forecast(milliseconds(60))), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kOld);
-  EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(60))), PushResult::kAccepted);
-}
-
-TEST(TickGate, DropsForecastsThatGoBackAndStaysInItsRun) {
-  TickGate gate(kGate);
-  gate.push_tick(std::chrono::seconds(5));
-  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(5))), PushResult::kAccepted);
-  for (const int ms : {400, 433, 466, 500}) {
-    EXPECT_EQ(gate.push_forecast(forecast(milliseconds(ms))), PushResult::kOld);
-  }
-  EXPECT_EQ(gate.push_tick(milliseconds(5010)), PushResult::kAccepted);
-}
-
-TEST(TickGate, IgnoresForecastsOfImagesBeforeItsFirstTickInEitherOrder) {
-  for (const bool forecast_first : {true, false}) {
-    TickGate gate(kGate);
-    if (forecast_first) gate.push_forecast(forecast(milliseconds(70)));
-    gate.push_tick(milliseconds(100));
-    if (!forecast_first) {
-      EXPECT_EQ(gate.push_forecast(forecast(milliseconds(70))), PushResult::kOld);
-    }
-    gate.push_forecast(forecast(milliseconds(100)));
-    std::string processed;
-    while (const auto tick = gate.next()) processed += describe(*tick);
-    for (int i = 11; i < 17; ++i) {
-      gate.push_tick(i * kTickPeriod);
-      while (const auto tick = gate.next()) processed += describe(*tick);
-    }
-    EXPECT_EQ(processed,
-              "100000000:\n110000000:\n120000000:\n130000000:\n140000000:\n150000000:\n"
-              "160000000: f100000000\n");
-  }
-}
-
-TEST(TickGate, IgnoresWhatIsLeftOfAnotherRunBeforeItsFirstTick) {
-  TickGate gate(kGate);
-  EXPECT_EQ(gate.push_forecast(forecast(std::chrono::seconds(90))), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_plan_result(plan_result(std::chrono::seconds(90))), PushResult::kOld);
-  gate.push_tick(Stamp{0});
-  EXPECT_EQ(gate.push_forecast(forecast(Stamp{0})), PushResult::kAccepted);
-  EXPECT_EQ(gate.push_plan_result(plan_result(Stamp{0})), PushResult::kAccepted);
-  EXPECT_EQ(describe(*gate.next()), "0:\n");
-}
-
-TEST(GateParams, AreRefusedByName) {
-  for (const auto& [culprit, parameters] : std::vector<std::pair<std::string, GateParams>>{
-           {"pipeline_delay", {Duration{0}, milliseconds(33), milliseconds(300)}},
-           {"camera_period", {milliseconds(60), milliseconds(4), milliseconds(300)}},
-           {"max_wait", {milliseconds(60), milliseconds(33), milliseconds(-1)}}}) {
-    try {
-      TickGate gate(parameters);
-      ADD_FAILURE() << "accepted: " << culprit;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()).rfind(culprit, 0), 0u) << error.what();
+  int processed = 0;
+  for (int i = 0; i < 6; ++i) {
+    gate.push_tick(i * kTickPeriod);
+    while (const auto tick = gate.next()) {
+      EXPECT_FALSE(tick->control);
+      ++processed;
     }
   }
+  EXPECT_EQ(processed, 5);  // that of 50 ms waits for the report on the first
+  gate.push_control_report({Stamp{0}, true, "stalled"});
+  const auto tick = gate.next();
+  ASSERT_TRUE(tick && tick->control);
+  EXPECT_TRUE(tick->control->failing);
+  EXPECT_EQ(tick->control->reason, "stalled");
+}
+
+// Fault 38, A1: controller dead -> its reports are silent by data time, heard again once it is back
+TEST(TickGate, GivesUpOnASilentControllerAndWaitsAgainOnceItIsHeard) {
+  TickGate gate(kGate);
+  gate.push_forecast({Stamp{0}, nullptr});
+  const auto tick_alone = [&gate](int i) {
+    std::string text;
+    gate.push_tick(i * kTickPeriod);
+    while (const auto tick = gate.next()) text += describe(*tick);
+    return text;
+  };
+  std::string text;
+  for (int i = 0; i < 36; ++i) text += tick_alone(i);
+  EXPECT_EQ(lines(text), 5);
+  for (int i = 4; i < 12; ++i) gate.push_forecast({from_seconds(i / 30.0), nullptr});
+  EXPECT_EQ(tick_alone(36).rfind("50000000: control_silent\n", 0), 0u);
+  gate.push_control_report(report(milliseconds(320)));
+  EXPECT_EQ(tick_alone(37).find("silent"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the decision knows of the target: the newest forecast, when the target was last measured,
-// and the HMM's belief, filtered over the velocities of all forecasts.
+// and the HMM's belief, filtered over the motions of all forecasts.
+//
+// A filter that expects smooth motion averages a shaking target away. So each observation is the
+// filter's velocity v with the spread s that makes it as fast as what was measured:
+//   s^2 = max(0, r^2 - |v|^2, |z|^2 - tr R - |v|^2)
+// with r the measured speed, z the velocity between the latest two images, R its covariance.
 #pragma once
 
 #include <memory>
@@ -12,17 +17,25 @@
 
 namespace prf_decision {
 
+// What the HMM observes of a forecast; none: the target was not measured.
+[[nodiscard]] std::optional<ObservedMotion> observation_of(const TargetForecast& forecast);
+
 class BeliefTracker {
  public:
   // Validates the parameters.
   explicit BeliefTracker(const HmmParams& params);
 
-  // One step of the HMM for each forecast: an observation where the status is kTracking, else a
-  // prediction, also for a refused (null) forecast.
+  // One step of the HMM for each forecast: an observation where there is one, else a prediction,
+  // also for a refused (null) forecast.
   void update(const std::vector<ForecastArrival>& forecasts);
 
   [[nodiscard]] Intent intent() const { return most_probable(belief_); }
   [[nodiscard]] const Eigen::Vector3d& posterior() const { return belief_.posterior; }
+  // The latest observation's speed and spread as one, m/s; 0 before the first one.
+  [[nodiscard]] double speed() const { return speed_; }
+  // Whether the posterior was no distribution, reset, and not observed since; how often that was.
+  [[nodiscard]] bool was_reset() const { return belief_.was_reset; }
+  [[nodiscard]] std::size_t resets() const { return resets_; }
   // The newest that was not refused; null until one has come.
   [[nodiscard]] const std::shared_ptr<const TargetForecast>& forecast() const { return forecast_; }
   // Stamp of the last measurement of the target.
@@ -31,6 +44,8 @@ class BeliefTracker {
  private:
   HmmFilter hmm_;
   HmmBelief belief_;
+  double speed_ = 0;
+  std::size_t resets_ = 0;
   std::shared_ptr<const TargetForecast> forecast_;
   std::optional<Stamp> measured_;
 };

@@ -7,6 +7,10 @@
 // only when the published state has lasted the dwell time: its event comes from the HMM, whose
 // belief may chatter. The events of the other rows come from guards, milestones and goals. These
 // rows act at once and whatever the HMM believes.
+//
+// The reaction is monotone: of the events calm, unsteady, hazard, unstable, overdue, in this order,
+// a later one never leads to a bolder state than an earlier one (boldness()). What goes back is not
+// stopped by a hazard; so the way out needs neither forecast nor planner nor a goal in reach.
 #pragma once
 
 #include <array>
@@ -29,16 +33,16 @@ enum class ExecutionState {
 inline constexpr std::size_t kExecutionStates = 8;
 
 enum class State {
-  kIdle,           // no goal yet
+  kIdle,           // no goal yet, or the target was left after an execution
   kWaiting,        // for the guards, to begin
   kRewindWaiting,  // the same, then back to the start of the skill
   kForward,
   kPause,
-  kRewindPaused,
   kReverse,    // back along the skill, as far as its start, until the HMM believes otherwise
   kRewinding,  // back to the start of the skill, before the execution begins
   kTracking,   // of the target, at the end of the skill
   kRetract,    // back from the target
+  kLeaving,    // the same once the execution has ended; as far as the start
   kDone,
   kStopped
 };
@@ -47,11 +51,13 @@ inline constexpr std::size_t kStates = 12;
 enum class Event {
   kCalm,       // no violation, the HMM believes in Forward
   kUnsteady,   // no violation, the HMM believes in Pause
-  kUnstable,   // no violation, the HMM believes in Reverse
+  kUnstable,   // the HMM believes in Reverse
   kClear,      // no violation, whatever the HMM believes; instead of these three while rewinding
   kHazard,     // a guard reports a violation
-  kOverdue,    // the last measurement is so old that the arm shall go back
-  kLost,       // the last measurement is so old that the skill is given up
+  kOverdue,    // a violation that has lasted so long that the arm shall go back
+  kLost,       // the last measurement is so old that the skill is given up; at its start only
+  kGiveUp,     // the arm has not followed for so long that the skill is given up
+  kAway,       // no violation, but the hand is not where the skill is to go on
   kTimeUp,     // time limit passed
   kComplete,   // the cursor stands on the last node
   kHeld,       // the target was tracked for the hold time
@@ -60,7 +66,7 @@ enum class Event {
   kBegin,      // a goal begins where the cursor is
   kBeginAway   // a goal begins at the start; the cursor is elsewhere or on another demonstration
 };
-inline constexpr std::size_t kEvents = 14;
+inline constexpr std::size_t kEvents = 16;
 
 enum class Condition { kNone, kDwelled };
 
@@ -78,10 +84,13 @@ inline constexpr std::array kTable{
     Row{State::kIdle,          Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
 
     Row{State::kWaiting,       Event::kCalm,      Condition::kNone,    State::kForward},
+    Row{State::kWaiting,       Event::kAway,      Condition::kNone,    State::kRewinding},
+    Row{State::kWaiting,       Event::kOverdue,   Condition::kNone,    State::kReverse},
     Row{State::kWaiting,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kWaiting,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
     Row{State::kRewindWaiting, Event::kClear,     Condition::kNone,    State::kRewinding},
+    Row{State::kRewindWaiting, Event::kOverdue,   Condition::kNone,    State::kRewinding},
     Row{State::kRewindWaiting, Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kRewindWaiting, Event::kPreempted, Condition::kNone,    State::kStopped},
 
@@ -91,6 +100,7 @@ inline constexpr std::array kTable{
     Row{State::kForward,       Event::kOverdue,   Condition::kNone,    State::kReverse},
     Row{State::kForward,       Event::kComplete,  Condition::kNone,    State::kTracking},
     Row{State::kForward,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kForward,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kForward,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kForward,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
@@ -98,26 +108,20 @@ inline constexpr std::array kTable{
     Row{State::kPause,         Event::kUnstable,  Condition::kDwelled, State::kReverse},
     Row{State::kPause,         Event::kOverdue,   Condition::kNone,    State::kReverse},
     Row{State::kPause,         Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kPause,         Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kPause,         Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kPause,         Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kRewindPaused,  Event::kClear,     Condition::kNone,    State::kRewinding},
-    Row{State::kRewindPaused,  Event::kOverdue,   Condition::kNone,    State::kRewinding},
-    Row{State::kRewindPaused,  Event::kAtStart,   Condition::kNone,    State::kPause},
-    Row{State::kRewindPaused,  Event::kLost,      Condition::kNone,    State::kStopped},
-    Row{State::kRewindPaused,  Event::kTimeUp,    Condition::kNone,    State::kStopped},
-    Row{State::kRewindPaused,  Event::kPreempted, Condition::kNone,    State::kStopped},
-
     Row{State::kReverse,       Event::kCalm,      Condition::kDwelled, State::kForward},
     Row{State::kReverse,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
-    Row{State::kReverse,       Event::kHazard,    Condition::kNone,    State::kPause},
     Row{State::kReverse,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kReverse,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kReverse,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kReverse,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
-    Row{State::kRewinding,     Event::kHazard,    Condition::kNone,    State::kRewindPaused},
     Row{State::kRewinding,     Event::kAtStart,   Condition::kNone,    State::kReverse},
     Row{State::kRewinding,     Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kRewinding,     Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kRewinding,     Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kRewinding,     Event::kPreempted, Condition::kNone,    State::kStopped},
 
@@ -126,19 +130,29 @@ inline constexpr std::array kTable{
     Row{State::kTracking,      Event::kOverdue,   Condition::kNone,    State::kRetract},
     Row{State::kTracking,      Event::kHeld,      Condition::kNone,    State::kDone},
     Row{State::kTracking,      Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kTracking,      Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kTracking,      Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kTracking,      Event::kPreempted, Condition::kNone,    State::kStopped},
 
     Row{State::kRetract,       Event::kCalm,      Condition::kDwelled, State::kForward},
     Row{State::kRetract,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
-    Row{State::kRetract,       Event::kHazard,    Condition::kNone,    State::kPause},
     Row{State::kRetract,       Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kRetract,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kRetract,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kRetract,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
+    Row{State::kLeaving,       Event::kAtStart,   Condition::kNone,    State::kIdle},
+    Row{State::kLeaving,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
+    Row{State::kLeaving,       Event::kBegin,     Condition::kNone,    State::kWaiting},
+    Row{State::kLeaving,       Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
+
+    Row{State::kDone,          Event::kUnstable,  Condition::kDwelled, State::kLeaving},
+    Row{State::kDone,          Event::kOverdue,   Condition::kNone,    State::kLeaving},
     Row{State::kDone,          Event::kBegin,     Condition::kNone,    State::kWaiting},
     Row{State::kDone,          Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
 
+    Row{State::kStopped,       Event::kUnstable,  Condition::kDwelled, State::kLeaving},
+    Row{State::kStopped,       Event::kOverdue,   Condition::kNone,    State::kLeaving},
     Row{State::kStopped,       Event::kBegin,     Condition::kNone,    State::kWaiting},
     Row{State::kStopped,       Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
 };
@@ -149,10 +163,10 @@ inline constexpr std::array<ExecutionState, kStates> kPublished{
     ExecutionState::kWaiting,  // waiting
     ExecutionState::kWaiting,  // rewind waiting
     ExecutionState::kForward,  ExecutionState::kPause,
-    ExecutionState::kPause,    // rewind paused
     ExecutionState::kReverse,
     ExecutionState::kReverse,  // rewinding
     ExecutionState::kTracking, ExecutionState::kRetract,
+    ExecutionState::kRetract,  // leaving
     ExecutionState::kDone,     ExecutionState::kStopped};
 // clang-format on
 
@@ -169,8 +183,35 @@ inline constexpr std::array<ExecutionState, kStates> kPublished{
 }
 
 [[nodiscard]] constexpr bool is_rewinding(State state) {
-  return state == State::kRewindWaiting || state == State::kRewindPaused ||
-         state == State::kRewinding;
+  return state == State::kRewindWaiting || state == State::kRewinding;
+}
+
+// No execution is under way: a goal can begin.
+[[nodiscard]] constexpr bool is_resting(State state) {
+  return step(state, Event::kBegin, true) != state;
+}
+
+// How near the target a state keeps the hand while a danger lasts: 2 goes or stays there, 1 stands,
+// 0 goes away from it, or has ended.
+[[nodiscard]] constexpr int boldness(State state) {
+  switch (state) {
+    case State::kForward:
+    case State::kTracking:
+    case State::kDone:
+      return 2;
+    case State::kWaiting:
+    case State::kRewindWaiting:
+    case State::kPause:
+    case State::kStopped:
+      return 1;
+    case State::kIdle:
+    case State::kReverse:
+    case State::kRewinding:
+    case State::kRetract:
+    case State::kLeaving:
+      break;
+  }
+  return 0;
 }
 
 [[nodiscard]] const char* name(ExecutionState state);

@@ -12,7 +12,7 @@ namespace prf_decision {
 class ExecutionFsm {
  public:
   // Whether an execution can begin: none is under way.
-  [[nodiscard]] bool can_begin() const { return step(state_, Event::kBegin, true) != state_; }
+  [[nodiscard]] bool can_begin() const { return is_resting(state_); }
   // Needs can_begin(). `away`: by kBeginAway, the hand has to go back to the start first.
   void begin(Stamp stamp, bool away);
 
@@ -37,6 +37,9 @@ class ExecutionFsm {
   Event cause_ = Event::kHazard;  // that led into the published state
   std::string reason_;            // why the state holds; may be empty
   Stamp since_{0};                // that the published state holds
+  // The same, but a change by a hazard does not count: a target that is unstable and beyond a
+  // guard's bound too is left as soon as one that is unstable only.
+  Stamp since_but_hazard_{0};
 };
 
 }  // namespace prf_decision

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guards: checks of what the HMM cannot see, whether target, forecast, plan and goal can be
-// acted on at all. They are the rows of one table, tried in its order; the first violation counts.
+// The guards: checks of what the HMM cannot see, whether arm, target, forecast, plan and goal can
+// be acted on at all. They are the rows of one table, tried in its order as far as the first
+// violation. What is wrong with the arm does not end the search: the graver violation counts, else
+// the first. A forecast is judged as far ahead as the execution uses it, which is up to goal_time:
+// a longer horizon may be wrong without harm.
 #pragma once
 
 #include <array>
@@ -8,6 +11,7 @@
 #include <string>
 
 #include "prf_decision/decision_fsm.hpp"
+#include "prf_decision/following_monitor.hpp"
 #include "prf_decision/types.hpp"
 
 namespace prf_decision {
@@ -21,6 +25,7 @@ struct GuardParams {
   double max_reach = 0;                                // hand from the shoulder, m
   double workspace_radius = 0;                         // target from the shoulder, m
   double max_target_speed = 0;                         // m/s
+  FollowingParams following;
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
@@ -28,8 +33,9 @@ struct GuardParams {
 
 struct GuardInput {
   Stamp tick{0};
-  Stamp goal_time{0};                  // at which the hand shall be at the goal
-  Duration since_last_tick{0};         // 0 at the first one
+  Stamp goal_time{0};           // at which the hand shall be at the goal
+  Duration since_last_tick{0};  // 0 at the first one
+  const FollowingMonitor* following{};
   bool has_goal = false;               // of the action, or the one that starts by itself
   std::optional<Stamp> measured;       // last measurement of the target
   const TargetForecast* forecast{};    // the newest one, present once the target was measured
@@ -47,8 +53,9 @@ struct Violation {
 using Check = std::optional<Violation>(const GuardParams& params, const GuardInput& input);
 
 // Each check may rely on the ones before it in the table.
-Check check_has_goal, check_ticks, check_measured, check_age, check_forecast_heard, check_status,
-    check_forecast, check_has_plan, check_planner_heard, check_plan_result, check_goal;
+Check check_has_goal, check_ticks, check_following, check_measured, check_age, check_forecast_heard,
+    check_status, check_forecast, check_has_plan, check_planner_heard, check_plan_result,
+    check_goal;
 
 struct Guard {
   const char* name;
@@ -63,11 +70,12 @@ inline constexpr std::array kGuards{
     //    name             once   violation                                                                events
     Guard{"goal given",    true,  "no goal of `execute_skill` yet",                                        "hazard", check_has_goal},
     Guard{"ticks",         true,  "`joint_states` silent for longer than `max_wait`",                      "hazard", check_ticks},
+    Guard{"following",     true,  "the hand off its set-point, or `control/status` failing or silent, for `following_limits` [0], [1], [2]", "hazard, overdue, give up", check_following},
     Guard{"measured",      false, "the target was never measured",                                         "hazard", check_measured},
     Guard{"age",           false, "last measurement older than `coast_limits` [0], [1], [2]",              "hazard, overdue, lost", check_age},
     Guard{"forecast heard", false, "`target/forecast` silent for longer than `max_wait`",                  "hazard", check_forecast_heard},
     Guard{"status",        false, "the predictor has no target, or lost it",                               "hazard", check_status},
-    Guard{"forecast",      false, "a prediction outside `workspace_radius` or above `max_target_speed`",   "hazard", check_forecast},
+    Guard{"forecast",      false, "a prediction in use outside `workspace_radius` or above `max_target_speed`", "hazard", check_forecast},
     Guard{"plan",          true,  "no plan yet",                                                           "hazard", check_has_plan},
     Guard{"planner heard", false, "`skill/trajectory` silent for longer than `max_wait`",                  "hazard", check_planner_heard},
     Guard{"plan result",   false, "the planner's last result has no plan",                                 "hazard", check_plan_result},
@@ -75,7 +83,7 @@ inline constexpr std::array kGuards{
 };
 // clang-format on
 
-// The first violation, of all guards or of those that hold where the skill is adapted once.
+// The violation that counts, of all guards or of those that hold where the skill is adapted once.
 [[nodiscard]] std::optional<Violation> check_guards(const GuardParams& params,
                                                     const GuardInput& input, bool adapted_once);
 

@@ -3,8 +3,11 @@
 //
 // Observation o: velocity of the target in the planning frame, m/s, once for each forecast (one
 // period of the camera). Hidden state i in the order Forward, Pause, Reverse, with Gaussian
-// emission b_i(o) = N(o; mean_i, covariance_i). Forward filter (Rabiner 1989, scaled), one step per
-// observation:
+// emission b_i(o) = N(o; mean_i, covariance_i). Where the velocity is known with a spread s only,
+// the root mean square of what it does not show, ln b_i is its expectation over N(o, s^2/3 I):
+//   E ln b_i = ln N(o; mean_i, covariance_i) - s^2/6 tr covariance_i^-1
+// so that a larger spread speaks against states of narrow covariance, as a larger speed does.
+// Forward filter (Rabiner 1989, scaled), one step per observation:
 //   predicted_j = sum_i posterior_i A_ij,   posterior_j = predicted_j b_j(o) / sum_k (same)
 // The first observation uses the initial distribution as predicted.
 #pragma once
@@ -17,6 +20,8 @@ namespace prf_decision {
 
 enum class Intent { kForward, kPause, kReverse };
 inline constexpr std::size_t kIntents = 3;
+// m/s. Faster observations are cut to it: all of them speak for Reverse as clearly.
+inline constexpr double kMaxObservedSpeed = 20.0;
 inline constexpr std::array<const char*, kIntents> kIntentNames{"forward", "pause", "reverse"};
 
 struct HmmParams {
@@ -31,6 +36,11 @@ struct HmmParams {
   void validate() const;
 };
 
+struct ObservedMotion {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+  double spread = 0;  // m/s, root mean square of the motion that the velocity does not show
+};
+
 // ln b_i(o) of every state.
 class EmissionModel {
  public:
@@ -39,11 +49,15 @@ class EmissionModel {
 
   // std::invalid_argument when the velocity is not finite.
   [[nodiscard]] Eigen::Vector3d log_density(const Eigen::Vector3d& velocity) const;
+  // The expectation of the header, of the observation cut to kMaxObservedSpeed.
+  // std::invalid_argument when it is not finite or the spread is negative.
+  [[nodiscard]] Eigen::Vector3d log_density(const ObservedMotion& observation) const;
 
  private:
   std::array<Eigen::Vector3d, kIntents> mean_;
   std::array<Eigen::Matrix3d, kIntents> whitening_;  // W with W^T W = covariance^-1
   Eigen::Vector3d log_norm_;                         // ln of the density at the mean
+  Eigen::Vector3d precision_trace_;                  // tr covariance^-1, s^2/m^2
 };
 
 // E|o|^2 = |mean|^2 + tr covariance: the order of the states.
@@ -53,7 +67,13 @@ struct HmmBelief {
   Eigen::Vector3d posterior = Eigen::Vector3d::Zero();  // sums to 1
   bool started = false;                                 // an observation or a prediction was made
   double log_likelihood = 0;                            // of all observations so far
+  // Since a posterior that was no distribution was replaced by the initial one, until the next
+  // observation. Such a belief counts as Reverse.
+  bool was_reset = false;
 };
+
+// Whether the entries are probabilities and sum to 1; not-a-number is none.
+[[nodiscard]] bool is_distribution(const Eigen::Vector3d& values);
 
 class HmmFilter {
  public:
@@ -62,18 +82,22 @@ class HmmFilter {
 
   [[nodiscard]] HmmBelief initial_belief() const;
 
-  // One period with an observation. std::invalid_argument when the velocity is not finite.
-  [[nodiscard]] HmmBelief observe(const HmmBelief& belief, const Eigen::Vector3d& velocity) const;
+  // One period with an observation. std::invalid_argument as from log_density(). Both functions
+  // reset a posterior that is no distribution, given or computed.
+  [[nodiscard]] HmmBelief observe(const HmmBelief& belief, const ObservedMotion& observation) const;
 
   // One period without an observation: the belief drifts toward the stationary distribution.
   [[nodiscard]] HmmBelief predict(const HmmBelief& belief) const;
 
  private:
+  [[nodiscard]] HmmBelief checked(const HmmBelief& belief) const;
+
   HmmParams parameters_;
   EmissionModel emission_;
 };
 
-// The most probable state; the more cautious one when equal.
+// The most probable state; the more cautious one when equal. Reverse after a reset, and when the
+// posterior is no distribution.
 [[nodiscard]] Intent most_probable(const HmmBelief& belief);
 
 }  // namespace prf_decision

@@ -12,7 +12,8 @@
 //                                          adapted once: the plan's last pose
 //   waiting, stopped             stands    none; the set-point begins where the hand is measured
 // Without a reference the set-point stands still; in waiting and stopped there is no set-point,
-// and the arm holds.
+// and the arm holds. While the arm does not follow, the cursor waits: forward always, back where it
+// would lead away from the measured hand.
 #pragma once
 
 #include <memory>
@@ -20,6 +21,7 @@
 
 #include "prf_decision/approach.hpp"
 #include "prf_decision/decision_fsm.hpp"
+#include "prf_decision/following_monitor.hpp"
 #include "prf_decision/plan_receiver.hpp"
 #include "prf_decision/setpoint_limiter.hpp"
 
@@ -48,11 +50,13 @@ struct ReferenceInput {
   std::optional<Pose> hand;          // as measured; none: not known
   const TargetForecast* forecast{};  // null: none that the hand may follow
   bool violation = false;            // a guard reports one: the target is not tracked
+  bool follows = true;               // the arm does
+  bool hand_on_goal = false;         // within goal_tolerance of the set-point before
 };
 
 struct ReferenceResult {
   std::optional<MovingPose> setpoint;  // none: hold
-  bool at_start = false;               // cursor and set-point are at the start of the plan
+  bool at_start = false;               // cursor, set-point and hand are at the start of the plan
 };
 
 struct GoalDistance {
@@ -77,15 +81,21 @@ class ReferenceGenerator {
   [[nodiscard]] const Trajectory* plan() const { return plan_.get(); }
   [[nodiscard]] double cursor() const { return cursor_; }
   [[nodiscard]] bool is_complete() const { return plan_ && at_end(*plan_, cursor_); }
-  // For how long the state has been tracking and the set-point within tracking_tolerance of its
-  // reference, without interruption; none: it is not so now.
+  // Whether the cursor is on the approach, or at the end of the plan.
+  [[nodiscard]] bool is_at_target() const;
+  // Whether the hand is where the cursor is; true without a plan.
+  [[nodiscard]] bool is_on_skill(const Pose& hand, const PoseTolerance& tolerance) const;
+  // For how long, without interruption, the state has been tracking, the set-point within
+  // tracking_tolerance of its reference, and the hand on the set-point; none: it is not so now.
   [[nodiscard]] std::optional<Duration> tracked_for(Stamp stamp) const;
-  // From the set-point to the goal at this tick; none without a plan, set-point or prediction.
-  [[nodiscard]] std::optional<GoalDistance> goal_distance(const TargetForecast& forecast,
+  // From the measured hand to the goal at this tick; none without a plan or prediction.
+  [[nodiscard]] std::optional<GoalDistance> goal_distance(const Pose& hand,
+                                                          const TargetForecast& forecast,
                                                           Stamp stamp) const;
 
  private:
   void move_cursor(const ReferenceInput& input);
+  [[nodiscard]] bool leads_away(const ReferenceInput& input, double cursor) const;
   void follow_target(const ReferenceInput& input);
   [[nodiscard]] bool is_relative_to_target() const;
   [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;

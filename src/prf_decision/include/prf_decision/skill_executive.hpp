@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Executes the skill: at every control tick it lets the belief (belief_tracker.hpp) and the guards
-// (guards.hpp) drive the state machine (decision_fsm.hpp), and gives the set-point of the state
-// (reference_generator.hpp).
+// (guards.hpp) drive the state machine (assessor.hpp, decision_fsm.hpp), and gives the set-point of
+// the state (reference_generator.hpp). What counts as reached is judged by the measured hand
+// (following_monitor.hpp).
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "prf_decision/assessor.hpp"
 #include "prf_decision/belief_tracker.hpp"
 #include "prf_decision/execution_fsm.hpp"
+#include "prf_decision/following_monitor.hpp"
 #include "prf_decision/guards.hpp"
 #include "prf_decision/plan_receiver.hpp"
 #include "prf_decision/reference_generator.hpp"
@@ -49,7 +52,8 @@ struct Progress {
   double fraction = 0;     // of the skill executed, 0 .. 1
   std::size_t frozen = 0;  // nodes
   Duration time_to_go{0};
-  std::optional<GoalDistance> goal_distance;  // of the set-point, to where the skill ends now
+  std::optional<GoalDistance> goal_distance;  // of the measured hand, to where the skill ends now
+  std::optional<PoseError> following;         // measured hand from its set-point; none: it holds
   NamedDemonstration demonstration;           // that the planner shall follow
   std::string refusal;  // why the requested demonstration is not switched to, at this tick
 };
@@ -83,6 +87,11 @@ class SkillExecutive {
   // refuses.
   void tune(const DecisionParams& params);
 
+  // How often the HMM's posterior was no distribution and was reset.
+  [[nodiscard]] std::size_t belief_resets() const { return belief_.resets(); }
+  // What keeps the arm from following; empty: nothing.
+  [[nodiscard]] const std::string& following_trouble() const { return following_.trouble(); }
+
   // The whole state in one line, for logs.
   [[nodiscard]] std::string describe() const;
 
@@ -94,12 +103,6 @@ class SkillExecutive {
     bool preempt_requested = false;
     std::string refusal;  // of this tick
   };
-  struct Assessment {
-    Event event;
-    std::string reason;
-    bool violation;
-  };
-
   [[nodiscard]] bool adapts_once() const {
     return params_.reference.adaptation == Adaptation::kOnce;
   }
@@ -108,19 +111,22 @@ class SkillExecutive {
   void begin_execution(Stamp stamp);
   void switch_demonstration();
   [[nodiscard]] GuardInput guard_input(const Tick& tick) const;
-  [[nodiscard]] Assessment assess(const Tick& tick) const;
+  [[nodiscard]] AssessmentInput assessment_input(const Tick& tick) const;
   void change_state(const Tick& tick, const Assessment& assessment);
   [[nodiscard]] const TargetForecast* followed_forecast(const Tick& tick) const;
   [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool violation);
-  [[nodiscard]] Progress progress(Stamp stamp) const;
+  [[nodiscard]] Progress progress(const Tick& tick) const;
 
   DecisionParams params_;
   BeliefTracker belief_;
   PlanReceiver plans_;
+  FollowingMonitor following_;
+  Assessor assessor_;
   ExecutionFsm fsm_;
   ReferenceGenerator reference_;
   Goals goals_;
   std::optional<Stamp> last_tick_;
+  std::optional<Pose> last_setpoint_;  // of that tick; none: the arm held
 };
 
 }  // namespace prf_decision

@@ -78,6 +78,7 @@ class DecisionNode(unittest.TestCase):
         self.assertEqual(runs[0], runs[1])
         self.assertEqual(runs[0], runs[2])
 
+    # Fault 26, A13: planner killed and respawned -> pause within max_wait, then on without a jump
     def test_pauses_after_max_wait_when_the_planner_is_silent_and_resumes_with_it(self):
         _, world = self.begin_run()
         self.assertTrue(world.play(0, 600))
@@ -99,6 +100,7 @@ class DecisionNode(unittest.TestCase):
         # The skill runs at 0.3 m/s and a gap closes at 0.2 m/s on top of it.
         self.assertLess(max(abs(b - a) for a, b in zip(path, path[1:])), 0.005 + 1e-9)
 
+    # Fault 11: clock goes back -> a new run from the initial state, once three ticks agree
     def test_begins_anew_when_the_clock_goes_back(self):
         _, world = self.begin_run()
         self.assertTrue(world.play(0, 500))
@@ -110,6 +112,25 @@ class DecisionNode(unittest.TestCase):
         self.assertEqual(first.state, ExecutionProgress.WAITING)
         self.assertEqual(first.forecast_stamp, rospy.Time())
         self.assertEqual(first.cursor, 0)
+
+    # Fault 40, A2: ticks, forecasts, plans late, early, doubled, without the arm -> dropped, the run goes on
+    def test_goes_on_whatever_single_messages_come_late_early_doubled_or_without_the_arm(self):
+        start, world = self.begin_run()
+        self.assertTrue(world.play(0, 600))
+        before = world.progress[-1]
+        self.assertEqual(before.state, ExecutionProgress.FORWARD)
+        for ms in (-5000, -1500, -10, 590, 3600000):  # from the start of the run
+            world.joint_states.publish(joint_state(start + ms))
+            world.forecasts.publish(forecast(start + ms))
+            rospy.rostime.wallsleep(0.02)
+        legs = joint_state(start + 605)
+        legs.name = [f"leg_{i}" for i in range(len(legs.name))]
+        world.joint_states.publish(legs)
+        rospy.rostime.wallsleep(0.1)
+        self.assertTrue(world.play(600, 1000))
+        self.assertEqual(len(world.progress), 100)
+        self.assertEqual(world.progress[-1].state, ExecutionProgress.FORWARD)
+        self.assertGreater(world.progress[-1].cursor, before.cursor + 3)
 
     def test_does_not_act_on_messages_that_are_not_finite_or_in_another_frame(self):
         start, world = self.begin_run()
@@ -123,7 +144,7 @@ class DecisionNode(unittest.TestCase):
                 bad.header.frame_id = "elsewhere"
             world.forecasts.publish(bad)
         for ms in range(start, start + 120, 10):
-            world.joint_states.publish(joint_state(ms))
+            world.tick(ms)
         self.assertTrue(world.wait_for(12), len(world.progress))
         for progress in world.progress:
             self.assertEqual(progress.forecast_stamp, rospy.Time())

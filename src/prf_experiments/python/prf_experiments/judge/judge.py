@@ -147,7 +147,9 @@ def defect(recording: Recording) -> str:
     in_flight = recording.images - len(recording.detection_stamps)
     if not injected and not 0 <= in_flight <= MAX_IMAGES_IN_FLIGHT:
         return f"{recording.images} images but {len(recording.detection_stamps)} tag_detections"
-    finished = (recording.progress.states[-1] in (ExecutionProgress.DONE, ExecutionProgress.STOPPED)
+    # After its end the execution may leave the target again.
+    finished = (np.isin(recording.progress.states,
+                        (ExecutionProgress.DONE, ExecutionProgress.STOPPED)).any()
                 or _fall(recording)[0] is not None)
     duration = recording.ticks[-1] - recording.ticks[0]
     limit = min(TIME_LIMIT, round(SECOND * float(arguments.get("time_limit", TIME_LIMIT / SECOND))))

@@ -84,6 +84,7 @@ TEST_F(HmmFile, ThatCannotBeReadIsNamed) {
   }
 }
 
+// Fault 30: HMM file invalid (rows not 1, not sorted, negative, absurd) -> refused by name
 TEST_F(HmmFile, WithAFaultIsRefusedWithItsNameAndTheCulprit) {
   struct Fault {
     const char* find;

@@ -47,6 +47,7 @@ const std::map<ExecutionState, std::function<void(World&)>> kWays{
      }},
 };
 
+// Fault 33: skill preempted while reversing, or in any state -> stopped within a tick, holds
 TEST(Preemption, StopsInEveryStateWithinOneTickAndHolds) {
   for (const auto& [state, lead_to] : kWays) {
     World world(on_demand());
@@ -121,36 +122,52 @@ TEST(SkillGoal, GoesBackToTheStartWhateverTheHmmSaysAndThenForward) {
   EXPECT_EQ(world.until(ExecutionState::kTracking, 3).progress.cursor, 10);
 }
 
-TEST(SkillGoal, PausesOnTheWayBackForAHazardAndGoesOn) {
+TEST(SkillGoal, GoesOnBackWhateverTheHazard) {
   World world;
   world.until(ExecutionState::kDone, 4);
   world.executive().begin({});
   world.run(0.3);
-  world.planner_silent = true;
-  const double paused = world.run(0.3).progress.cursor;
-  EXPECT_EQ(world.tick().progress.state, ExecutionState::kPause);
-  world.planner_silent = false;
-  EXPECT_EQ(world.tick().progress.state, ExecutionState::kReverse);
-  EXPECT_LT(world.tick().progress.cursor, paused);
+  world.planner_silent = world.forecast_silent = true;
+  world.run(1.5);
+  EXPECT_EQ(world.tick().progress.cursor, 0);
+  world.planner_silent = world.forecast_silent = false;
+  world.until(ExecutionState::kDone, 5);
 }
 
-// An executive that was restarted, or an arm that was moved while it held.
+// Fault 26: decision restarted, or an arm moved while it held -> begins where the hand is, no jump
 TEST(SkillGoal, BeginsWhereTheHandIsWithoutAJump) {
   World world;
-  world.hand = pose_at(0.5, 0.1, 0.45);
+  world.hand = pose_at(0.35, 0.05, 0.45);
+  const Pose hand = world.hand;
   const ExecutiveResult first = world.until(ExecutionState::kForward, 0.1);
   ASSERT_TRUE(first.setpoint);
-  EXPECT_LT((first.setpoint->pose.position - world.hand->position).norm(), 0.006);
-  world.run(0.2);
-  world.executive().preempt();
-  world.tick();
-  world.hand = pose_at(0.4, -0.1, 0.45);
-  world.run(0.1);
-  world.executive().begin({{}, {}, true});
-  world.forget_setpoint();
-  const ExecutiveResult again = world.tick();
-  EXPECT_EQ(again.progress.state, ExecutionState::kForward);
-  EXPECT_LT((again.setpoint->pose.position - world.hand->position).norm(), 0.006);
+  EXPECT_LT((first.setpoint->pose.position - hand.position).norm(), 0.006);
+}
+
+// Fault 47: execution begins away from the start of the skill -> first to the start, slowly
+TEST(SkillGoal, GoesToTheStartFirstWhenTheHandIsElsewhere) {
+  for (const bool resume : {false, true}) {
+    World world;
+    if (resume) {
+      world.run(0.6);
+      world.executive().preempt();
+      world.tick();
+    }
+    world.hand = pose_at(0.5, 0.2, 0.45);
+    world.forget_setpoint();
+    if (resume) world.executive().begin({{}, {}, true});
+    world.until(ExecutionState::kReverse, 0.2);
+    for (ExecutiveResult result = world.tick();
+         result.progress.state == ExecutionState::kReverse;) {
+      const Eigen::Vector3d before = world.hand.position;
+      result = world.tick();
+      if (result.progress.cursor > 0) continue;
+      EXPECT_LT((world.hand.position - before).norm(), 0.2 * to_seconds(kTickPeriod) + 1e-9);
+    }
+    EXPECT_LT((world.hand.position - Eigen::Vector3d(0.3, 0, 0.5)).norm(), 0.03);
+    EXPECT_LT(world.tick().progress.cursor, 0.5);
+    world.until(ExecutionState::kDone, 4);
+  }
 }
 
 TEST(SkillGoal, ResumesWhereTheLastExecutionEnded) {
@@ -165,6 +182,7 @@ TEST(SkillGoal, ResumesWhereTheLastExecutionEnded) {
   EXPECT_GT(result.progress.cursor, cursor);
 }
 
+// Fault 29: reconfigured while running -> whole or not at all
 TEST(Tuning, ActsFromTheNextTickAndIsRefusedWhole) {
   World world;
   world.until(ExecutionState::kTracking, 2);

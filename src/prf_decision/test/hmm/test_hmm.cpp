@@ -52,7 +52,7 @@ TEST(HmmFilter, EqualsTheEnumerationOfAllStateSequences) {
     HmmBelief belief = filter.initial_belief();
     for (int k = 0; k < 7; ++k) {
       o.emplace_back(velocity(random), velocity(random), velocity(random));
-      belief = filter.observe(belief, o.back());
+      belief = filter.observe(belief, {o.back()});
       const Eigen::Vector3d joint = enumerate(hmm, o);
       EXPECT_NEAR((belief.posterior - joint / joint.sum()).cwiseAbs().maxCoeff(), 0, 1e-12);
       EXPECT_NEAR(belief.log_likelihood, std::log(joint.sum()), 1e-11);
@@ -64,7 +64,7 @@ TEST(HmmFilter, StaysADistributionUnderFarOutliers) {
   const HmmFilter filter(usual_hmm());
   HmmBelief belief = filter.initial_belief();
   for (const double speed : {0.0, 1e3, 0.0, 1e6, -50.0, 0.1}) {
-    belief = filter.observe(belief, {speed, 0, 0});
+    belief = filter.observe(belief, {{speed, 0, 0}});
     EXPECT_TRUE(belief.posterior.allFinite());
     EXPECT_NEAR(belief.posterior.sum(), 1, 1e-12);
     EXPECT_GE(belief.posterior.minCoeff(), 0);
@@ -75,7 +75,7 @@ TEST(HmmFilter, StaysADistributionUnderFarOutliers) {
 TEST(HmmFilter, DriftsToTheStationaryDistributionWithoutObservations) {
   const HmmParams hmm = skewed_hmm();
   const HmmFilter filter(hmm);
-  HmmBelief belief = filter.observe(filter.initial_belief(), {0, 0, 0});
+  HmmBelief belief = filter.observe(filter.initial_belief(), {{0, 0, 0}});
   for (int k = 0; k < 500; ++k) belief = filter.predict(belief);
   EXPECT_NEAR((hmm.transition.transpose() * belief.posterior - belief.posterior).norm(), 0, 1e-12);
 }
@@ -89,7 +89,75 @@ TEST(HmmFilter, DoesNotSpendTheInitialDistributionBeforeTheFirstObservation) {
 
 TEST(HmmFilter, RefusesAVelocityThatIsNotFinite) {
   const HmmFilter filter(usual_hmm());
-  EXPECT_THROW((void)filter.observe(filter.initial_belief(), {NAN, 0, 0}), std::invalid_argument);
+  EXPECT_THROW((void)filter.observe(filter.initial_belief(), {{NAN, 0, 0}}), std::invalid_argument);
+}
+
+// Fault 43, A5: velocity of 1e300 -> cut to 20 m/s, counts as reverse; the next calm ones recover
+TEST(HmmFilter, BoundsAnObservationBeforeItIsUsed) {
+  const HmmFilter filter(usual_hmm());
+  for (const ObservedMotion& absurd :
+       {ObservedMotion{{1e300, -1e300, 1e300}, 0}, ObservedMotion{{0, 0, 0}, 1e300}}) {
+    HmmBelief belief = filter.observe(filter.initial_belief(), absurd);
+    EXPECT_TRUE(is_distribution(belief.posterior));
+    EXPECT_EQ(most_probable(belief), Intent::kReverse);
+    for (int k = 0; k < 30; ++k) belief = filter.observe(belief, {{0, 0, 0}});
+    EXPECT_EQ(most_probable(belief), Intent::kForward);
+  }
+  EXPECT_THROW((void)filter.observe(filter.initial_belief(), {{0, 0, 0}, NAN}),
+               std::invalid_argument);
+}
+
+// A5: posterior that is no distribution -> reset to the initial one, counts as reverse until
+// observed
+TEST(HmmFilter, ResetsAPosteriorThatIsNoDistribution) {
+  const HmmFilter filter(usual_hmm());
+  for (const Eigen::Vector3d& broken :
+       {Eigen::Vector3d(NAN, NAN, NAN), Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, -1, 0)}) {
+    const HmmBelief belief{broken, true, 0, false};
+    EXPECT_EQ(most_probable(belief), Intent::kReverse);
+    for (HmmBelief reset : {filter.predict(belief), filter.observe(belief, {{0, 0, 0}})}) {
+      EXPECT_EQ(reset.posterior, usual_hmm().initial);
+      EXPECT_TRUE(reset.was_reset);
+      EXPECT_EQ(most_probable(reset), Intent::kReverse);
+      EXPECT_EQ(most_probable(filter.predict(reset)), Intent::kReverse);
+      reset = filter.observe(reset, {{0, 0, 0}});
+      EXPECT_FALSE(reset.was_reset);
+      EXPECT_EQ(most_probable(reset), Intent::kForward);
+    }
+  }
+}
+
+// The expectation over N(o, s^2/3 I), by a large sample of it.
+TEST(EmissionModel, TakesTheExpectationOverTheSpread) {
+  const EmissionModel emission(skewed_hmm());
+  const ObservedMotion observed{{0.1, -0.2, 0.05}, 0.3};
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0, 0.3 / std::sqrt(3.0));
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  constexpr int kDraws = 200000;
+  for (int k = 0; k < kDraws; ++k) {
+    const Eigen::Vector3d offset(normal(random), normal(random), normal(random));
+    mean += emission.log_density(Eigen::Vector3d(observed.velocity + offset)) / kDraws;
+  }
+  // Three standard errors of the widest: about 6 / sqrt(200000).
+  EXPECT_LT((mean - emission.log_density(observed)).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(HmmFilter, GetsNoBolderWithMoreSpeedOrMoreSpread) {
+  const HmmFilter filter(usual_hmm());
+  for (const bool spread : {false, true}) {
+    Intent boldest = Intent::kForward;
+    for (double size = 0; size < 3; size += 0.05) {
+      HmmBelief belief = filter.initial_belief();
+      for (int k = 0; k < 20; ++k) {
+        belief = filter.observe(
+            belief, spread ? ObservedMotion{{0.1, 0, 0}, size} : ObservedMotion{{size, 0, 0}, 0.1});
+      }
+      EXPECT_GE(most_probable(belief), boldest) << size;
+      boldest = most_probable(belief);
+    }
+    EXPECT_EQ(boldest, Intent::kReverse);
+  }
 }
 
 TEST(HmmFilter, PrefersTheMoreCautiousStateWhenEqual) {
@@ -110,6 +178,8 @@ TEST(HmmParams, RefusesEveryEntryOfTheCatalogueByName) {
       {"forward can never be reached from reverse",
        [](auto& h) { h.transition.row(2) << 0, 0, 1; }},
       {"mean.forward", [](auto& h) { h.mean[0].x() = INFINITY; }},
+      {"mean.reverse", [](auto& h) { h.mean[2].x() = 21; }},
+      {"covariance.reverse has largest", [](auto& h) { h.covariance[2] *= 1e308; }},
       {"covariance.pause is not finite", [](auto& h) { h.covariance[1](0, 0) = NAN; }},
       {"covariance.pause differs", [](auto& h) { h.covariance[1](0, 1) = 0.01; }},
       {"covariance.forward has smallest eigenvalue", [](auto& h) { h.covariance[0].setZero(); }},

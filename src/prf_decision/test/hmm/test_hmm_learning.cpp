@@ -82,7 +82,7 @@ TEST(HmmSequence, EndsWithThePosteriorOfTheFilterAndPredictsWithoutMeasurementsL
   const HmmFilter filter(skewed_hmm());
   HmmBelief belief = filter.initial_belief();
   for (const Observation& o : run) {
-    belief = o.velocity ? filter.observe(belief, *o.velocity) : filter.predict(belief);
+    belief = o.velocity ? filter.observe(belief, {*o.velocity}) : filter.predict(belief);
   }
   const SmoothingResult smoothing = smooth(skewed_hmm(), run);
   EXPECT_NEAR((smoothing.posterior.col(49) - belief.posterior).norm(), 0, 1e-12);

@@ -120,6 +120,7 @@ TEST(SkillExecutive, RetractsFromTrackingWhenTheTargetBecomesUnstable) {
   world.until(ExecutionState::kDone, 5);
 }
 
+// Fault 31: HMM chatters at a threshold -> at most one change per dwell time
 TEST(SkillExecutive, ChangesAtMostOncePerDwellTimeWhenTheHmmChatters) {
   DecisionParams parameters = usual_params();
   // A memory of no observation: the belief follows every single velocity.
@@ -159,6 +160,7 @@ TEST(SkillExecutive, RestartsTheHoldTimeWhenTheGoalRunsAway) {
   world.until(ExecutionState::kDone, 0.6);
 }
 
+// Fault 23: a plan that comes late or is another one -> taken without a jump of the set-point
 TEST(SkillExecutive, TakesANewPlanWithoutAJumpEvenWhenItsFrozenPartChanged) {
   World world;
   world.until(ExecutionState::kForward, 0.1);
@@ -203,8 +205,15 @@ TEST(SkillExecutive, ResumesFromAMissedForecastWithoutNamingIt) {
   EXPECT_EQ(executive.update(tick).progress.forecast_stamp, Stamp{0});
 }
 
+// Fault 28: parameters garbage, infinite or absurd -> refused by name, value and bound
 TEST(DecisionParams, AreRefusedByName) {
   const std::vector<std::pair<std::string, std::function<void(DecisionParams&)>>> catalogue{
+      {"hold_time", [](auto& p) { p.hold_time = from_seconds(1e5); }},
+      {"dwell_time", [](auto& p) { p.dwell_time = from_seconds(6); }},
+      {"time_limit", [](auto& p) { p.time_limit = from_seconds(1e5); }},
+      {"lead", [](auto& p) { p.reference.lead = from_seconds(2); }},
+      {"catch_up_speed angular", [](auto& p) { p.reference.catch_up.angular = 1e308; }},
+      {"catch_up_time", [](auto& p) { p.reference.catch_up.time_constant = 5e-324; }},
       {"max_wait", [](auto& p) { p.guards.max_gap = Duration{0}; }},
       {"lead", [](auto& p) { p.reference.lead = Duration{-1}; }},
       {"hold_time", [](auto& p) { p.hold_time = Duration{-1}; }},

@@ -20,7 +20,8 @@ inline const Eigen::Vector3d kTarget(1.0, 0, 0.5);  // puts the hand where the s
 inline const Eigen::Vector3d kStill(0, 0, 0);
 
 // Ticks at 100 Hz; every third one brings a forecast of the target as it then is, and the tick
-// after it the same plan again.
+// after it the same plan again. The hand is where the last set-point was, unless the arm is
+// blocked.
 class World {
  public:
   explicit World(const DecisionParams& parameters = usual_params()) : executive_(parameters) {}
@@ -28,7 +29,9 @@ class World {
   ExecutiveResult tick() {
     Tick tick;
     tick.stamp = now_;
-    tick.hand = hand;
+    if (hand_known) tick.hand = hand;
+    tick.control = ControlReport{now_ - from_seconds(0.05), control_fails, "joint 3 unknown"};
+    tick.control_silent = control_silent;
     tick.forecast_silent = forecast_silent;
     tick.planner_silent = planner_silent;
     if (count_ % 3 == 0 && !forecast_silent) {
@@ -36,6 +39,7 @@ class World {
           forecast_of(now_ - from_seconds(0.06), position, velocity, status));
       if (status != TargetStatus::kTracking)
         forecast->since_measurement = forecast->stamp - last_measured_;
+      forecast->measured_motion.speed = measured_speed;
       if (status == TargetStatus::kNoTarget) forecast->predictions.clear();
       if (status == TargetStatus::kTracking) last_measured_ = forecast->stamp;
       tick.forecasts.push_back({forecast->stamp, forecast});
@@ -48,6 +52,7 @@ class World {
     const ExecutiveResult result = executive_.update(tick);
     wanted_ = result.progress.demonstration;
     check_continuity(result);
+    if (arm_follows && result.setpoint) hand = result.setpoint->pose;
     return result;
   }
 
@@ -75,9 +80,15 @@ class World {
   void forget_setpoint() { setpoint_.reset(); }  // the arm was moved meanwhile
   void leap(double seconds) { now_ += from_seconds(seconds); }
 
-  std::optional<Pose> hand;  // measured
+  Pose hand = pose_at(0.3, 0, 0.5);  // measured; where the straight skill begins
+  bool hand_known = true;
+  bool checks_steps = true;  // no: the velocity changes faster than the set-point follows
+  bool arm_follows = true;
+  bool control_fails = false;
+  bool control_silent = false;
   Eigen::Vector3d position = kTarget;
   Eigen::Vector3d velocity = kStill;
+  double measured_speed = 0;
   TargetStatus status = TargetStatus::kTracking;
   bool forecast_silent = false;
   bool planner_silent = false;
@@ -97,7 +108,7 @@ class World {
   }
 
   void check_continuity(const ExecutiveResult& result) {
-    if (!result.setpoint) return;
+    if (!result.setpoint || !checks_steps) return;
     const Eigen::Vector3d& at = result.setpoint->pose.position;
     // The skill runs at 0.3 m/s, on the approach across the target's motion; the gap closes at
     // 0.2 m/s on top of it.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns guards and belief into the event of a tick. Besides what each of them says at that tick:
+//
+//   a hazard of any guard that lasts for coast_limits[1]      overdue: the arm goes back
+//   unsteady for coast_limits[2] with the hand at the target  overdue
+//   lost with the hand away from the start of the skill       overdue: the way out comes first
+//   overdue while the execution waits at the start            hazard: there is no way to go back
+//   overdue or unstable once the execution has ended          only with the hand at the target
+// What lasts may pause for the dwell time.
+#pragma once
+
+#include <string>
+
+#include "prf_decision/belief_tracker.hpp"
+#include "prf_decision/guards.hpp"
+#include "prf_decision/lasting.hpp"
+
+namespace prf_decision {
+
+struct AssessmentInput {
+  GuardInput guards;
+  State state = State::kIdle;
+  bool adapted_once = false;
+  bool at_start = false;   // the cursor is at the start of the skill
+  bool at_target = false;  // the cursor is on the approach or at the end
+  bool away = false;       // the hand is not where the cursor is
+};
+
+struct Assessment {
+  Event event = Event::kHazard;
+  std::string reason;
+  bool violation = false;  // of a guard
+  // The HMM believes in Reverse, said beside a hazard; empty: it does not.
+  std::string unstable;
+};
+
+class Assessor {
+ public:
+  [[nodiscard]] Assessment assess(const GuardParams& params, Duration dwell_time,
+                                  const BeliefTracker& belief, const AssessmentInput& input);
+
+ private:
+  Lasting hazard_;
+  Lasting unsteady_;
+};
+
+}  // namespace prf_decision

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_decision/assessor.hpp"
+
+#include <utility>
+
+#include "sentence.hpp"
+
+namespace prf_decision {
+namespace {
+
+Event event_of(Intent intent) {
+  switch (intent) {
+    case Intent::kForward:
+      return Event::kCalm;
+    case Intent::kPause:
+      return Event::kUnsteady;
+    case Intent::kReverse:
+      break;
+  }
+  return Event::kUnstable;
+}
+
+std::string describe(const BeliefTracker& belief) {
+  if (belief.was_reset()) return "the belief was no distribution: reset";
+  const auto index = static_cast<std::size_t>(belief.intent());
+  return sentence("belief in ", kIntentNames[index], " ",
+                  belief.posterior()[static_cast<Eigen::Index>(index)], ", target speed ",
+                  belief.speed(), " m/s");
+}
+
+bool waits_at_start(const AssessmentInput& input) {
+  return input.at_start && published(input.state) == ExecutionState::kWaiting;
+}
+
+Event graded(Event event, bool lasts, const AssessmentInput& input) {
+  if (event == Event::kHazard && lasts) event = Event::kOverdue;
+  if (event == Event::kLost && !input.at_start) event = Event::kOverdue;
+  const bool stays = waits_at_start(input) || (is_resting(input.state) && !input.at_target);
+  return event == Event::kOverdue && stays ? Event::kHazard : event;
+}
+
+}  // namespace
+
+Assessment Assessor::assess(const GuardParams& params, Duration dwell_time,
+                            const BeliefTracker& belief, const AssessmentInput& input) {
+  const Stamp tick = input.guards.tick;
+  auto violation = check_guards(params, input.guards, input.adapted_once);
+  const Intent intent = input.adapted_once ? Intent::kForward : belief.intent();
+  hazard_.update(tick, violation.has_value(), dwell_time);
+  if (waits_at_start(input)) hazard_.reset();
+  unsteady_.update(tick, input.at_target && intent != Intent::kForward, dwell_time);
+  const bool may_leave = input.at_target || !is_resting(input.state);
+  if (violation) {
+    const bool lasts = hazard_.time(tick) > params.reverse_after;
+    return {graded(violation->event, lasts, input), std::move(violation->reason), true,
+            intent == Intent::kReverse && may_leave ? describe(belief) : ""};
+  }
+  if (is_rewinding(input.state))
+    return {Event::kClear, "back to the start of the skill", false, ""};
+  if (input.away && input.state == State::kWaiting) {
+    return {Event::kAway, "the hand is away from the skill: first to its start", false, ""};
+  }
+  if (intent == Intent::kForward || !may_leave) return {Event::kCalm, "", false, ""};
+  const bool too_long = unsteady_.time(tick) > params.stop_after;
+  return {too_long ? Event::kOverdue : event_of(intent), describe(belief), false, ""};
+}
+
+}  // namespace prf_decision
