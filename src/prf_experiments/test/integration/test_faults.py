@@ -48,6 +48,14 @@ class FaultyTrials(unittest.TestCase):
         self.assertEqual(states.count("WAITING"), 1, states)
         self.assertEqual(states.count("STOPPED"), 0, states)
 
+    # Fault 38, A1: the controller is killed while the skill is executed -> pause, given up, never DONE
+    def test_without_the_controller_nothing_is_done(self):
+        folder = self.trial("kill/arm_controller@5", "time_limit:=16")
+        states = self.states(folder)
+        self.assertEqual(self.verdict["verdict"], "F")
+        self.assertNotIn("DONE", states)
+        self.assertNotEqual(states[-1], "FORWARD")
+
     # Fault 26: decision, predictor and planner are killed and started again -> holds, resumes without a jump
     def test_nodes_that_come_back_resume_without_a_jump(self):
         states = self.states(self.trial(RESTARTS))
