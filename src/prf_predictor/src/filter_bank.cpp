@@ -68,9 +68,6 @@ void FilterBank::Hypotheses::add_periodic(const PeriodicParams& params,
   }
   for (int a = 0; a < count; ++a) {
     add({first + a, first + count + a}, {grid[index(a)]});
-    for (int b = a + 1; b < count; ++b) {
-      add({first + a, first + b}, {grid[index(a)], grid[index(b)]});
-    }
   }
   groups.push_back(std::move(components));
 }
@@ -100,11 +97,21 @@ std::shared_ptr<const FilterBank::Hypotheses> FilterBank::make_hypotheses(
   return hypotheses;
 }
 
-FilterBank::FilterBank(const PeriodicParams& params) : hypotheses_(make_hypotheses(params)) {}
+FilterBank::FilterBank(const PeriodicParams& params) : hypotheses_(make_hypotheses(params)) {
+  for (const double horizon : ForecastScorer::kHorizons) (void)transitions(horizon);
+}
 
-FilterBank::Transitions FilterBank::transitions(double dt) const {
-  Transitions result;
-  for (const Components& group : hypotheses_->groups) result.push_back(group.transitions(dt));
+// Some steps come again and again: horizons, and the interval between two images.
+std::shared_ptr<const FilterBank::Transitions> FilterBank::transitions(double dt) const {
+  for (const auto& [known, result] : known_transitions_) {
+    if (known == dt) return result;
+  }
+  auto result = std::make_shared<Transitions>();
+  for (const Components& group : hypotheses_->groups) result->push_back(group.transitions(dt));
+  if (known_transitions_.size() >= kKnownTransitions) {
+    known_transitions_.erase(known_transitions_.begin() + ForecastScorer::kHorizons.size());
+  }
+  known_transitions_.emplace_back(dt, result);
   return result;
 }
 
@@ -117,7 +124,8 @@ void FilterBank::begin(const Eigen::Vector3d& position, double variance) {
 }
 
 void FilterBank::advance(double dt) {
-  const Transitions over_dt = transitions(dt);
+  const auto shared = transitions(dt);
+  const Transitions& over_dt = *shared;
   for (std::size_t i = 0; i < beliefs_.size(); ++i) {
     beliefs_[i].advance(over_dt[hypotheses_->all[i].group]);
   }

@@ -8,41 +8,58 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kLongestGap = 0.1;     // s between measurements that are interpolated
+constexpr double kShortGap = 0.1;       // s between measurements that are always interpolated
+constexpr double kLongestGap = 0.6;     // the same at most, when they usually are as far apart
+constexpr double kGapShare = 2.5;       // of the usual interval
+constexpr double kUsualShare = 0.1;     // of a new interval in the usual one
 constexpr double kFirstEvidence = 0.3;  // s that an inflation of 1 counts for at first
 constexpr double kTick = 1e-9;          // s
 
 }  // namespace
 
-ForecastScorer::ForecastScorer(Eigen::Index candidates, double memory) : memory_(memory) {
+ForecastScorer::ForecastScorer(Eigen::Index candidates) {
   for (Sums& sums : sums_) {
     sums.squared_error.setZero(candidates);
+    sums.log_error.setZero(candidates);
     sums.scored_until = -kHorizons.back();
   }
 }
 
 void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
-                             const Eigen::Vector3d& variance) {
+                             const Eigen::Vector3d& variance, double memory) {
   const double passed = time - measured_time_;
+  worst_ratio_ = 0.0;
   if (has_measurement_ && passed > 0) {
-    const double fading = std::exp(-passed / memory_);
+    usual_interval_ =
+        usual_interval_ > 0 ? usual_interval_ + kUsualShare * (passed - usual_interval_) : passed;
+    const double longest = std::clamp(kGapShare * usual_interval_, kShortGap, kLongestGap);
+    const Eigen::Vector3d bend = curvature(time, position);
+    const double fading = std::exp(-passed / memory);
     for (std::size_t k = 0; k < kHorizons.size(); ++k) {
       Sums& sums = sums_[k];
       sums.evidence *= fading;
       sums.squared_error *= fading;
+      sums.log_error *= fading;
       sums.inflation *= fading;
       for (const auto& entry : entries_) {
         const double due = entry->time + kHorizons[k];
         if (entry->time <= sums.scored_until || due > time + kTick) continue;
         sums.scored_until = entry->time;
-        if (due < measured_time_ || passed > kLongestGap) continue;
-        const Eigen::Vector3d truth =
-            measured_position_ + (due - measured_time_) / passed * (position - measured_position_);
+        if (due < measured_time_ || passed > longest) continue;
+        const double since = due - measured_time_;
+        const Eigen::Vector3d truth = measured_position_ +
+                                      since / passed * (position - measured_position_) -
+                                      0.5 * since * (passed - since) * bend;
         const Prediction& prediction = entry->predictions[k];
         const double weight = entry->duration;
         sums.evidence += weight;
-        sums.squared_error +=
-            weight * (prediction.candidates.colwise() - truth).colwise().squaredNorm().array();
+        const Eigen::ArrayXd squared =
+            (prediction.candidates.colwise() - truth).colwise().squaredNorm();
+        sums.squared_error += weight * squared;
+        sums.log_error += weight * (squared + variance.sum()).log();
+        const Eigen::Array3d own = (prediction.position - truth).array().square();
+        worst_ratio_ = std::max(worst_ratio_,
+                                (own / (prediction.variance.array() + variance.array())).sum() / 3);
         sums.inflation += weight *
                           ((prediction.position - truth).array().square() - variance.array()) /
                           prediction.variance.array();
@@ -50,10 +67,24 @@ void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
     }
   }
   has_measurement_ = true;
+  earlier_time_ = measured_time_;
+  earlier_position_ = measured_position_;
   measured_time_ = time;
   measured_position_ = position;
   const double oldest = time - kHorizons.back() - kLongestGap;
   while (!entries_.empty() && entries_.front()->time < oldest) entries_.pop_front();
+}
+
+// Of the path through the latest three measurements; 0 when they are too unevenly spaced.
+Eigen::Vector3d ForecastScorer::curvature(double time, const Eigen::Vector3d& position) const {
+  const double before = measured_time_ - earlier_time_;
+  const double passed = time - measured_time_;
+  if (!(earlier_time_ >= 0) || before < 0.5 * passed || before > kLongestGap) {
+    return Eigen::Vector3d::Zero();
+  }
+  return 2.0 / (before + passed) *
+         ((position - measured_position_) / passed -
+          (measured_position_ - earlier_position_) / before);
 }
 
 void ForecastScorer::record(double time, Predictions predictions) {
@@ -67,6 +98,7 @@ ForecastScorer::Score ForecastScorer::score(std::size_t horizon) const {
   Score score;
   score.evidence = sums.evidence;
   score.squared_error = sums.squared_error / std::max(sums.evidence, kTick);
+  score.log_error = sums.log_error / std::max(sums.evidence, kTick);
   const double prior = kFirstEvidence * std::exp(-sums.evidence);
   const double errors = sums.evidence / kIndependent[horizon];
   score.inflation =

@@ -42,6 +42,10 @@ void KalmanPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matr
   belief_ = prf_predictor::correct(belief_, innovate(belief_, position, covariance));
 }
 
+Eigen::Vector3d KalmanPredictor::position(double horizon) const {
+  return model_->advance(belief_.mean, horizon).col(0).head<3>();
+}
+
 PointForecast KalmanPredictor::forecast(double horizon) const {
   const Gaussian future = ahead(horizon);
   return {future.mean.head<3>(), future.mean.segment<3>(3),

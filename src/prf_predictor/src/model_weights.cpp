@@ -9,13 +9,12 @@ ModelWeights::ModelWeights(const Eigen::ArrayXd& prior) : log_prior_(prior) {
   for (double& value : log_prior_) value = std::log(value);
 }
 
-void ModelWeights::update(const ForecastScorer& scorer, double noise_variance) {
+void ModelWeights::update(const ForecastScorer& scorer) {
   for (std::size_t k = 0; k < weights_.size(); ++k) {
     const ForecastScorer::Score score = scorer.score(k);
     Eigen::ArrayXd weight = log_prior_;
     if (score.evidence > 0) {
-      weight -= 1.5 * score.evidence / ForecastScorer::kIndependent[k] *
-                (score.squared_error + noise_variance).log();
+      weight -= 1.5 * score.evidence / ForecastScorer::kIndependent[k] * score.log_error;
     } else if (k > 0) {
       weight = weights_[k - 1].log();
     }

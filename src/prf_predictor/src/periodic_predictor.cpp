@@ -12,19 +12,26 @@ namespace prf_predictor {
 namespace {
 
 constexpr double kVelocityStep = 0.01;   // s, of the difference quotient
-constexpr double kLeastVariance = 1e-8;  // m^2, of the autoregressive model
+constexpr double kLeastVariance = 1e-8;  // m^2, of the candidates that are no hypotheses
 constexpr double kShortest = 0.1;        // s, over which a velocity is as uncertain as a position
+constexpr double kMemoryAfterChange = 0.1;  // s, of past errors while the motion is another one
 constexpr double kNegligibleWeight = 1e-3;  // such candidates are left out of a mixture
+
+// Of the one oscillation whose frequency a filter estimates, as in ekf.yaml.
+const OscillationNoise kOscillationNoise{0.03, 1e-4, 0.01};
 
 const PeriodicParams& validated(const PeriodicParams& params) {
   params.validate();
   return params;
 }
 
-// The hypotheses, then the autoregressive model.
+// Beside the hypotheses of the bank.
+enum Other : Eigen::Index { kAutoregressive, kOscillation, kStandstill, kOthers };
+
+// The hypotheses, then the others.
 Eigen::ArrayXd priors(const FilterBank& filters, double autoregressive) {
-  Eigen::ArrayXd prior(static_cast<Eigen::Index>(filters.size()) + 1);
-  prior.setConstant(autoregressive);
+  Eigen::ArrayXd prior(static_cast<Eigen::Index>(filters.size()) + kOthers);
+  prior.setConstant(autoregressive / kOthers);
   for (std::size_t i = 0; i < filters.size(); ++i) {
     prior(static_cast<Eigen::Index>(i)) = filters.prior(i);
   }
@@ -38,8 +45,9 @@ PeriodicPredictor::PeriodicPredictor(const PeriodicParams& params)
       filters_(params),
       weights_(priors(filters_, params.autoregressive_prior)),
       calibration_(params.innovation_memory, params.least_noise_share, params.least_inflation),
-      scorer_(static_cast<Eigen::Index>(filters_.size()) + 1, params.memory),
-      autoregressive_(params.autoregressive_window, params.autoregressive_order) {}
+      scorer_(static_cast<Eigen::Index>(filters_.size()) + kOthers),
+      autoregressive_(params.autoregressive_window, params.autoregressive_order),
+      oscillation_(std::make_shared<Oscillation>(kOscillationNoise), std::nullopt) {}
 
 std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
   return std::make_unique<PeriodicPredictor>(*this);
@@ -47,29 +55,40 @@ std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
 
 void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
   samples_.clear();
-  scorer_ = ForecastScorer(static_cast<Eigen::Index>(filters_.size()) + 1, params_.memory);
+  scorer_ = ForecastScorer(static_cast<Eigen::Index>(filters_.size()) + kOthers);
   calibration_ = CovarianceCalibration(params_.innovation_memory, params_.least_noise_share,
                                        params_.least_inflation);
   time_ = 0.0;
   since_measurement_ = 0.0;
   filters_.begin(position, covariance.trace() / 3);
+  oscillation_.begin(position, covariance);
+  change_.begin(position);
   after_measurement(position, covariance);
 }
 
 void PeriodicPredictor::advance(double dt) {
   filters_.advance(dt);
+  oscillation_.advance(dt);
   time_ += dt;
   since_measurement_ += dt;
 }
 
 void PeriodicPredictor::correct(const Eigen::Vector3d& position,
                                 const Eigen::Matrix3d& covariance) {
-  const PointForecast expected = mixture(0, filters_.transitions(0));
+  const PointForecast expected = mixture(0, *filters_.transitions(0));
+  const double elapsed = since_measurement_;
+  const Eigen::Array3d error2 = (position - expected.position).array().square();
+  const Eigen::Array3d known =
+      calibration_.sigma(elapsed, expected.covariance.diagonal().head<3>(), scorer_).square();
+  const double innovation_ratio = (error2 / (known + covariance.diagonal().array())).mean();
   calibration_.observe(position - expected.position, covariance.diagonal(),
                        expected.covariance.diagonal().head<3>(), since_measurement_);
   since_measurement_ = 0.0;
   filters_.correct(position, covariance.trace() / 3);
+  oscillation_.correct(position, covariance);
   after_measurement(position, covariance);
+  change_.observe(position, covariance.diagonal(), elapsed,
+                  std::max(innovation_ratio, scorer_.worst_ratio()));
 }
 
 void PeriodicPredictor::after_measurement(const Eigen::Vector3d& position,
@@ -78,8 +97,9 @@ void PeriodicPredictor::after_measurement(const Eigen::Vector3d& position,
   samples_.push_back({time_, position});
   while (samples_.front().time < time_ - autoregressive_.window()) samples_.pop_front();
   autoregression_ = autoregressive_.fit(samples_);
-  scorer_.observe(time_, position, covariance.diagonal());
-  weights_.update(scorer_, covariance.trace());
+  scorer_.observe(time_, position, covariance.diagonal(),
+                  change_.has_changed() ? kMemoryAfterChange : params_.memory);
+  weights_.update(scorer_);
   record_predictions();
 }
 
@@ -87,10 +107,14 @@ void PeriodicPredictor::record_predictions() {
   ForecastScorer::Predictions predictions;
   for (std::size_t k = 0; k < predictions.size(); ++k) {
     const double horizon = ForecastScorer::kHorizons[k];
-    const FilterBank::Transitions transitions = filters_.transitions(horizon);
+    const auto shared = filters_.transitions(horizon);
+    const FilterBank::Transitions& transitions = *shared;
     auto& candidates = predictions[k].candidates;
-    candidates.resize(3, static_cast<Eigen::Index>(filters_.size()) + 1);
-    candidates.rightCols<1>() = autoregression_->position(time_ + horizon);
+    const auto first = static_cast<Eigen::Index>(filters_.size());
+    candidates.resize(3, first + kOthers);
+    candidates.col(first + kAutoregressive) = autoregression_->position(time_ + horizon);
+    candidates.col(first + kOscillation) = oscillation_.position(horizon);
+    candidates.col(first + kStandstill) = samples_.back().position;
     for (std::size_t i = 0; i < filters_.size(); ++i) {
       candidates.col(static_cast<Eigen::Index>(i)) = filters_.position(i, transitions);
     }
@@ -103,24 +127,29 @@ void PeriodicPredictor::record_predictions() {
 }
 
 // Its variance is the mean squared error of its past predictions.
-SpectralBelief::Forecast PeriodicPredictor::autoregression(double horizon) const {
-  const double then = time_ + horizon;
+SpectralBelief::Forecast PeriodicPredictor::other(Eigen::Index which, double horizon) const {
   const double age = since_measurement_ + horizon;
   SpectralBelief::Forecast forecast;
-  forecast.position = autoregression_->position(then);
-  forecast.velocity =
-      (autoregression_->position(then + kVelocityStep) - forecast.position) / kVelocityStep;
+  const auto position = [&](double ahead) -> Eigen::Vector3d {
+    if (which == kStandstill) return samples_.back().position;
+    return which == kOscillation ? oscillation_.position(ahead)
+                                 : autoregression_->position(time_ + ahead);
+  };
+  forecast.position = position(horizon);
+  forecast.velocity = (position(horizon + kVelocityStep) - forecast.position) / kVelocityStep;
+  const auto row = static_cast<Eigen::Index>(filters_.size()) + which;
   const BetweenHorizons between = between_horizons(age);
-  const auto variance = [&](std::size_t k) {
+  const auto variance_at = [&](std::size_t k) {
     const ForecastScorer::Score score = scorer_.score(k);
-    return score.squared_error(score.squared_error.size() - 1) / 3;
+    return score.squared_error(row) / 3;
   };
   const double first = ForecastScorer::kHorizons.front();
-  const double position = kLeastVariance + std::min(age / first, 1.0) *
-                                               ((1 - between.fraction) * variance(between.lower) +
-                                                between.fraction * variance(between.upper));
+  const double variance =
+      kLeastVariance +
+      std::min(age / first, 1.0) * ((1 - between.fraction) * variance_at(between.lower) +
+                                    between.fraction * variance_at(between.upper));
   forecast.covariance =
-      Eigen::Vector2d(position, position / std::pow(std::max(age, kShortest), 2)).asDiagonal();
+      Eigen::Vector2d(variance, variance / std::pow(std::max(age, kShortest), 2)).asDiagonal();
   return forecast;
 }
 
@@ -132,11 +161,12 @@ PointForecast PeriodicPredictor::mixture(double horizon,
   Vector6d mean = Vector6d::Zero();
   Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
   std::vector<std::pair<double, Vector6d>> modes;
-  for (std::size_t i = 0; i <= filters_.size(); ++i) {
+  for (std::size_t i = 0; i < filters_.size() + kOthers; ++i) {
     const double w = weight(static_cast<Eigen::Index>(i));
     if (w < kNegligibleWeight) continue;
-    const auto one =
-        i < filters_.size() ? filters_.forecast(i, transitions) : autoregression(horizon);
+    const auto one = i < filters_.size()
+                         ? filters_.forecast(i, transitions)
+                         : other(static_cast<Eigen::Index>(i - filters_.size()), horizon);
     Vector6d mode;
     mode << one.position, one.velocity;
     modes.emplace_back(w, mode);
@@ -151,10 +181,12 @@ PointForecast PeriodicPredictor::mixture(double horizon,
 }
 
 PointForecast PeriodicPredictor::forecast(double horizon) const {
-  PointForecast forecast = mixture(horizon, filters_.transitions(horizon));
+  PointForecast forecast = mixture(horizon, *filters_.transitions(horizon));
+  const double age = since_measurement_ + horizon;
   const Eigen::Array3d variance = forecast.covariance.diagonal().head<3>();
-  const Eigen::Array3d scale =
-      calibration_.sigma(since_measurement_ + horizon, variance, scorer_) / variance.sqrt();
+  const Eigen::Array3d calibrated =
+      change_.factor() * calibration_.sigma(age, variance, scorer_).square();
+  const Eigen::Array3d scale = (calibrated.max(change_.least_variance(age)) / variance).sqrt();
   Eigen::Matrix<double, 6, 1> both;
   both << scale, scale;
   forecast.covariance = repaired(both.asDiagonal() * forecast.covariance * both.asDiagonal());
@@ -165,12 +197,19 @@ std::optional<Periodicity> PeriodicPredictor::periodicity(double horizon) const 
   const Eigen::ArrayXd weight = weights_.at(since_measurement_ + horizon);
   Periodicity result;
   double best = 0.0;
+  double total = weight(static_cast<Eigen::Index>(filters_.size()) + kStandstill);
   for (std::size_t i = 0; i < filters_.size(); ++i) {
     const double w = weight(static_cast<Eigen::Index>(i));
+    total += w;
     if (filters_.frequencies(i).empty()) continue;
     result.probability += w;
     if (w > best) result.frequencies = filters_.frequencies(i);
     best = std::max(best, w);
+  }
+  result.probability = total > 0 ? result.probability / total : 0.0;
+  const auto oscillation = static_cast<Eigen::Index>(filters_.size()) + kOscillation;
+  if (weight(oscillation) > best) {
+    result.frequencies = {std::exp(oscillation_.belief().mean(Oscillation::kLogFrequency))};
   }
   return result;
 }

@@ -16,6 +16,7 @@ namespace {
 constexpr double kSpeed =
     0.2;  // m/s, error per horizon that is predicted before any prediction came due
 constexpr double kLeastSigma = 1e-4;  // m
+constexpr double kMemory = 6.0;       // s, of past errors
 
 class Standstill : public Continuation {
  public:
@@ -53,7 +54,7 @@ void WindowPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matr
   while (samples_.front().time < time_ - extrapolation_->window()) samples_.pop_front();
   path_ = extrapolation_->fit(samples_);
   noise_ = covariance;
-  scorer_.observe(time_, position, covariance.diagonal());
+  scorer_.observe(time_, position, covariance.diagonal(), kMemory);
   ForecastScorer::Predictions predictions;
   for (std::size_t k = 0; k < predictions.size(); ++k) {
     const double horizon = ForecastScorer::kHorizons[k];

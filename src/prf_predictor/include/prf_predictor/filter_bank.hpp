@@ -3,9 +3,9 @@
 // target. All get the same measurements; which of them to believe is not decided here
 // (model_weights.hpp).
 //
-// Periodic hypotheses: the platform has one frequency W and its double, or two frequencies W_a and
-// W_b, of a geometric grid over [slowest, fastest],
-//   x(t) = o(W) + o(2 W) + disturbance   or   x(t) = o(W_a) + o(W_b) + disturbance
+// Periodic hypotheses: the platform has one frequency W of a geometric grid over
+// [slowest, fastest], and its double,
+//   x(t) = o(W) + o(2 W) + disturbance
 // with o a damped oscillator (spectral_model.hpp) whose amplitude and phase on each axis are its
 // state. There are two disturbance models: stepping (drift, wander, the robot's steps and two of
 // their harmonics) and calm (a little drift and wander). Aperiodic hypotheses are a drift alone:
@@ -13,8 +13,10 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "prf_predictor/forecast_scorer.hpp"
 #include "prf_predictor/periodic_params.hpp"
 #include "prf_predictor/spectral_model.hpp"
 
@@ -40,7 +42,7 @@ class FilterBank {
   [[nodiscard]] const std::vector<double>& frequencies(std::size_t i) const {
     return hypotheses_->all[i].frequencies;
   }
-  [[nodiscard]] Transitions transitions(double dt) const;
+  [[nodiscard]] std::shared_ptr<const Transitions> transitions(double dt) const;
 
   // All filters start from this measurement. `variance`: of each axis, m^2.
   void begin(const Eigen::Vector3d& position, double variance);
@@ -69,6 +71,9 @@ class FilterBank {
   [[nodiscard]] static std::shared_ptr<const Hypotheses> make_hypotheses(
       const PeriodicParams& params);
 
+  static constexpr std::size_t kKnownTransitions = 16;
+
+  mutable std::vector<std::pair<double, std::shared_ptr<const Transitions>>> known_transitions_;
   std::shared_ptr<const Hypotheses> hypotheses_;  // shared by copies, never changed
   std::vector<SpectralBelief> beliefs_;           // of each hypothesis
 };

@@ -3,10 +3,12 @@
 // predicts best at each horizon, and how large the real errors are beside the predicted covariance.
 //
 // A prediction made at t for the horizon h is due at t + h. Its error e is the difference to the
-// measured position, interpolated to t + h between two measurements. With d_j the time that
+// measured position, interpolated to t + h between two measurements by the parabola through the
+// latest three, whatever the rate of the images. With d_j the time that
 // prediction j stands for (since the one before it) and m the memory, sums over all that are due,
 //   T   = sum_j d_j exp(-(now - due_j) / m)                        evidence, s
 //   E_i = 1 / T sum_j d_j exp(-(now - due_j) / m) |e_ij|^2         of candidate i
+//   L_i = the same mean of ln(|e_ij|^2 + sum of r_j)               of candidate i
 //   G   = the same mean of (e_j^2 - r_j) / p_j, for each axis      covariance inflation
 // with r the variance of the measurement and p the predicted variance.
 #pragma once
@@ -36,20 +38,25 @@ class ForecastScorer {
   struct Score {
     double evidence = 0.0;         // T, s
     Eigen::ArrayXd squared_error;  // E, m^2
+    Eigen::ArrayXd log_error;      // L
     // G, times (n + 3) / (n + 1) for n = T / kIndependent errors, because a variance estimated from
     // few errors is uncertain. Starts at 1. Negative when the errors are below the measurement
     // noise.
     Eigen::Array3d inflation = Eigen::Array3d::Ones();
   };
 
-  ForecastScorer(Eigen::Index candidates, double memory);  // memory: m, s
+  explicit ForecastScorer(Eigen::Index candidates);
 
-  // A measurement: the predictions that have come due are scored.
-  void observe(double time, const Eigen::Vector3d& position, const Eigen::Vector3d& variance);
+  // A measurement: the predictions that have come due are scored. `memory`: m, s.
+  void observe(double time, const Eigen::Vector3d& position, const Eigen::Vector3d& variance,
+               double memory);
   // Predictions from `time`, after observe() of the same time.
   void record(double time, Predictions predictions);
 
   [[nodiscard]] Score score(std::size_t horizon) const;
+  // Of the predictions that came due with the latest measurement: the largest squared error beside
+  // the variance that was predicted, mean of the axes; 0: none came due.
+  [[nodiscard]] double worst_ratio() const { return worst_ratio_; }
 
  private:
   struct Entry {
@@ -60,13 +67,19 @@ class ForecastScorer {
   struct Sums {
     double evidence = 0.0;
     Eigen::ArrayXd squared_error;
+    Eigen::ArrayXd log_error;
     Eigen::Array3d inflation = Eigen::Array3d::Zero();
     double scored_until = 0.0;  // predictions made until then are scored or never will be
   };
 
-  double memory_;
+  [[nodiscard]] Eigen::Vector3d curvature(double time, const Eigen::Vector3d& position) const;
+
+  double usual_interval_ = 0.0;  // s, between measurements
+  double worst_ratio_ = 0.0;
+  double earlier_time_ = -1.0;  // of the measurement before the latest
+  Eigen::Vector3d earlier_position_ = Eigen::Vector3d::Zero();
   bool has_measurement_ = false;
-  double measured_time_ = 0.0;
+  double measured_time_ = -1.0;
   Eigen::Vector3d measured_position_ = Eigen::Vector3d::Zero();
   std::deque<std::shared_ptr<const Entry>> entries_;
   std::array<Sums, kHorizons.size()> sums_;

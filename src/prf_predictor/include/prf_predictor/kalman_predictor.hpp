@@ -23,6 +23,9 @@ class KalmanPredictor : public TargetPredictor {
   void correct(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) override;
   [[nodiscard]] PointForecast forecast(double horizon) const override;
 
+  // The mean position alone, of the model through the mean.
+  [[nodiscard]] Eigen::Vector3d position(double horizon) const;
+
   [[nodiscard]] const Gaussian& belief() const { return belief_; }
 
  private:

@@ -2,13 +2,15 @@
 // Probabilities of candidate models, apart for each horizon: a model is believed at a horizon as
 // far as its past predictions at that horizon were good.
 //
-// E_i is the mean squared error of candidate i over the last seconds and T the time that it covers
-// (forecast_scorer.hpp). With predictions tau apart being independent, T is worth n = T / tau
-// errors on three axes. When the variance of the errors is unknown and integrated out, the
-// probability is
-//   w_i ~ prior_i (E_i + r)^(-3 n / 2)
-// with r the variance of the measurement (sum of the axes), below which errors tell nothing. A
-// horizon without evidence takes the weights of the next shorter one as they are.
+// L_i is the mean of ln(e_ij^2 + r) over the errors of candidate i in the last seconds, with r the
+// variance of the measurement (sum of the axes), below which errors tell nothing, and T the time
+// that it covers (forecast_scorer.hpp). With predictions tau apart being independent, T is worth
+// n = T / tau errors on three axes. When the variance of each error is unknown and integrated out,
+// the probability is
+//   w_i ~ prior_i exp(-3/2 n L_i)
+// A mean of squares in place of the logarithms would remember one large error, as of a model before
+// it has learnt the motion, long after it has become good. A horizon without evidence takes the
+// weights of the next shorter one as they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +24,7 @@ class ModelWeights {
  public:
   explicit ModelWeights(const Eigen::ArrayXd& prior);
 
-  void update(const ForecastScorer& scorer, double noise_variance);
+  void update(const ForecastScorer& scorer);
 
   // Linear between the scorer's horizons. `age`: s since the latest measurement.
   [[nodiscard]] Eigen::ArrayXd at(double age) const;

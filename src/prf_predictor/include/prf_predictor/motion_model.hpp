@@ -86,6 +86,8 @@ struct OscillationNoise {
 
 class Oscillation : public MotionModel {
  public:
+  static constexpr Eigen::Index kLogFrequency = 9;  // of ln W in the state
+
   explicit Oscillation(const OscillationNoise& noise);
 
   [[nodiscard]] Eigen::Index dimension() const override { return 10; }

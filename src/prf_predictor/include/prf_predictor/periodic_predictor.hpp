@@ -2,13 +2,14 @@
 // Predicts a target on a platform that may move periodically; whether it does, and with which
 // frequencies and amplitudes, is found from the measurements.
 //
-// Candidates are the hypotheses of a filter bank (filter_bank.hpp) and an autoregressive model of
-// the latest positions (window_predictor.hpp), for repetition that no hypothesis has. With the
+// Candidates are the hypotheses of a filter bank (filter_bank.hpp), an autoregressive model of the
+// latest positions (window_predictor.hpp) for repetition that no hypothesis has, an extended filter
+// of one oscillation whose frequency it estimates (motion_model.hpp), and standstill. With the
 // weights w_i of a horizon (model_weights.hpp) and each candidate's mean m_i and covariance P_i,
 // the forecast is the mixture
 //   m = sum_i w_i m_i,   P = sum_i w_i (P_i + (m_i - m)(m_i - m)^T),
 // whose standard deviations are then calibrated by the errors of past forecasts
-// (covariance_calibration.hpp).
+// (covariance_calibration.hpp), and made fit for a change of the motion (motion_change.hpp).
 #pragma once
 
 #include <deque>
@@ -17,7 +18,9 @@
 #include "prf_predictor/covariance_calibration.hpp"
 #include "prf_predictor/filter_bank.hpp"
 #include "prf_predictor/forecast_scorer.hpp"
+#include "prf_predictor/kalman_predictor.hpp"
 #include "prf_predictor/model_weights.hpp"
+#include "prf_predictor/motion_change.hpp"
 #include "prf_predictor/periodic_params.hpp"
 #include "prf_predictor/target_predictor.hpp"
 #include "prf_predictor/window_predictor.hpp"
@@ -42,14 +45,17 @@ class PeriodicPredictor : public TargetPredictor {
   // Before calibration; `transitions` are those over the horizon.
   [[nodiscard]] PointForecast mixture(double horizon,
                                       const FilterBank::Transitions& transitions) const;
-  [[nodiscard]] SpectralBelief::Forecast autoregression(double horizon) const;
+  // By one of the candidates beside the hypotheses.
+  [[nodiscard]] SpectralBelief::Forecast other(Eigen::Index which, double horizon) const;
 
   PeriodicParams params_;
   FilterBank filters_;
   ModelWeights weights_;
   CovarianceCalibration calibration_;
-  ForecastScorer scorer_;  // of the hypotheses, then the autoregressive model
+  MotionChange change_;
+  ForecastScorer scorer_;  // of the hypotheses, then the others
   Autoregressive autoregressive_;
+  KalmanPredictor oscillation_;
   std::deque<Sample> samples_;
   std::shared_ptr<const Continuation> autoregression_;  // fitted to the samples
   double time_ = 0.0;                                   // s since begin()

@@ -23,7 +23,7 @@ struct PointForecast {
 
 // What a predictor knows of a periodic motion.
 struct Periodicity {
-  double probability = 0.0;         // that the motion is periodic
+  double probability = 0.0;         // that the motion is periodic, of the models that tell
   std::vector<double> frequencies;  // of the most probable periodic hypothesis, rad/s
 };
 

@@ -86,7 +86,7 @@ class WindowPredictor : public TargetPredictor {
   std::shared_ptr<const Extrapolation> extrapolation_;
   std::deque<Sample> samples_;
   std::shared_ptr<const Continuation> path_;
-  ForecastScorer scorer_{1, 6.0};
+  ForecastScorer scorer_{1};
   Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();  // of the latest measurement
   double time_ = 0.0;                                // s since begin()
 };

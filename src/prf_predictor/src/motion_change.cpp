@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prf_predictor/motion_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prf_predictor {
+namespace {
+
+constexpr double kShortest = 0.005;  // s; the noise of nearer measurements hides the velocity
+
+}  // namespace
+
+void MotionChange::begin(const Eigen::Vector3d& position) {
+  *this = MotionChange();
+  position_ = mean_ = position;
+}
+
+void MotionChange::observe(const Eigen::Vector3d& position, const Eigen::Vector3d& noise,
+                           double elapsed, double ratio) {
+  factor_ = std::max({1.0, 1.0 + (factor_ - 1.0) * std::exp(-elapsed / kRecovery), ratio / kUsual});
+  if (elapsed > kShortest) {
+    const double share = 1 - std::exp(-elapsed / kMemory);
+    const Eigen::Array3d velocity = (position - position_) / elapsed;
+    const Eigen::Array3d of_noise = 2 * noise.array() / (elapsed * elapsed);
+    speed2_ += share * (velocity.square() - of_noise - speed2_);
+    mean_ += share * (position - mean_);
+    spread2_ += share * ((position - mean_).array().square() - spread2_);
+  }
+  position_ = position;
+}
+
+Eigen::Array3d MotionChange::least_variance(double age) const {
+  return std::min(kRate * age, 1.0) * (age * age * speed2_.max(0.0)).min(2 * spread2_);
+}
+
+}  // namespace prf_predictor
