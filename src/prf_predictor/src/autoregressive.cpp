@@ -98,7 +98,7 @@ Eigen::VectorXd continued(const Eigen::VectorXd& x, Eigen::Index order, Eigen::I
 
 Autoregressive::Autoregressive(double window, double order)
     : window_(window), order_(static_cast<int>(order)) {
-  require(window > 0 && window <= 60, "window", window, "> 0 and <= 60 s");
+  require(window >= 0.1 && window <= 60, "window", window, "0.1 .. 60 s");
   require(order >= 1 && order <= 60 && order == std::floor(order), "order", order,
           "a whole number 1 .. 60");
 }

@@ -10,6 +10,13 @@
 namespace prf_predictor {
 
 using prf_core::require;
+using prf_core::require_between;
+namespace {
+
+constexpr double kLeastDensity = 1e-12;  // of every noise
+constexpr double kMostDensity = 1e6;
+
+}  // namespace
 
 double VelocityDecay::velocity_factor(double dt) const { return std::exp(-dt / time_constant); }
 
@@ -40,9 +47,10 @@ double VelocityDecay::prior_variance() const {
 }
 
 void VelocityDecay::validate() const {
-  require(spectral_density > 0 && std::isfinite(spectral_density), "acceleration_density",
-          spectral_density, "finite and > 0");
-  require(time_constant > 0, "velocity_time_constant", time_constant, "> 0 s");
+  require_between("acceleration_density", spectral_density, kLeastDensity, kMostDensity,
+                  "(m/s^2)^2/Hz");
+  require((time_constant >= 1e-3 && time_constant <= 1e6) || std::isinf(time_constant) == 1,
+          "velocity_time_constant", time_constant, "within [0.001, 1e+06] s or infinite");
 }
 
 DecayingVelocity::DecayingVelocity(const VelocityDecay& decay) : decay_(decay) { decay.validate(); }
@@ -75,8 +83,7 @@ Gaussian DecayingVelocity::initial_belief(const Eigen::Vector3d& position,
 }
 
 ConstantAcceleration::ConstantAcceleration(double jerk_density) : jerk_density_(jerk_density) {
-  require(jerk_density > 0 && std::isfinite(jerk_density), "jerk_density", jerk_density,
-          "finite and > 0");
+  require_between("jerk_density", jerk_density, kLeastDensity, kMostDensity, "(m/s^3)^2/Hz");
 }
 
 Points ConstantAcceleration::advance(const Points& states, double dt) const {
@@ -116,12 +123,11 @@ Gaussian ConstantAcceleration::initial_belief(const Eigen::Vector3d& position,
 }
 
 Oscillation::Oscillation(const OscillationNoise& noise) : noise_(noise) {
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  require(positive(noise.acceleration_density), "acceleration_density", noise.acceleration_density,
-          "finite and > 0");
-  require(positive(noise.centre_density), "centre_density", noise.centre_density, "finite and > 0");
-  require(positive(noise.frequency_density), "frequency_density", noise.frequency_density,
-          "finite and > 0");
+  require_between("acceleration_density", noise.acceleration_density, kLeastDensity, kMostDensity,
+                  "(m/s^2)^2/Hz");
+  require_between("centre_density", noise.centre_density, kLeastDensity, kMostDensity,
+                  "(m/s)^2/Hz");
+  require_between("frequency_density", noise.frequency_density, kLeastDensity, kMostDensity, "1/s");
 }
 
 namespace {
@@ -180,14 +186,14 @@ StateMatrix Oscillation::process_noise(double dt) const {
 
 Gaussian Oscillation::initial_belief(const Eigen::Vector3d& position,
                                      const Eigen::Matrix3d& covariance) const {
-  constexpr double kSpeed = 0.2;         // m/s
-  constexpr double kSwing = 0.05;        // m
-  constexpr double kLogFrequency = 0.7;  // ln(2 rad/s)
+  constexpr double kSpeed = 0.2;               // m/s
+  constexpr double kSwing = 0.05;              // m
+  constexpr double kLikelyLogFrequency = 0.7;  // ln(2 rad/s)
   constexpr double kLogFrequencySigma = 0.4;
   Gaussian belief{State::Zero(10), StateMatrix::Zero(10, 10)};
   belief.mean.head<3>() = position;
   belief.mean.segment<3>(6) = position;
-  belief.mean(9) = kLogFrequency;
+  belief.mean(kLogFrequency) = kLikelyLogFrequency;
   belief.covariance.topLeftCorner<3, 3>() = covariance;
   belief.covariance.diagonal().segment<3>(3).setConstant(kSpeed * kSpeed);
   belief.covariance.diagonal().segment<3>(6).setConstant(kSwing * kSwing);

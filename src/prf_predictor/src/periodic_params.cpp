@@ -10,6 +10,14 @@ namespace prf_predictor {
 
 using prf_core::require;
 
+namespace {
+
+// Of all: no length, time, frequency, density or weight of a platform lies beyond.
+constexpr double kLeast = 1e-9;
+constexpr double kMost = 1e3;
+
+}  // namespace
+
 const std::vector<PeriodicParams::Member>& PeriodicParams::members() {
   using P = PeriodicParams;
   static const std::vector<Member> kMembers{
@@ -57,8 +65,7 @@ const std::vector<PeriodicParams::Member>& PeriodicParams::members() {
 
 void PeriodicParams::validate() const {
   for (const auto& [name, member] : members()) {
-    const double value = this->*member;
-    require(value > 0 && std::isfinite(value), name, value, "finite and > 0");
+    prf_core::require_between(name, this->*member, kLeast, kMost);
   }
   require(fastest > slowest, "fastest", fastest, "> slowest");
   require(step_fastest > step_slowest, "step_fastest", step_fastest, "> step_slowest");

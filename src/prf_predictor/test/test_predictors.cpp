@@ -114,13 +114,14 @@ TEST_P(EveryPredictor, BeginsAnewWithoutMemory) {
   EXPECT_EQ(used->forecast(0.5).covariance, fresh->forecast(0.5).covariance);
 }
 
+// Fault 28, A9: a predictor's parameter missing, NaN, 5e-324 or 1e308 -> refused by its name
 TEST_P(EveryPredictor, RefusesParametersThatAreMissingUnknownOrOutOfBounds) {
   const auto good = values_of(GetParam());
   auto unknown = good;
   unknown["no_such_parameter"] = 1;
   EXPECT_THROW((void)make_predictor(GetParam(), unknown), std::invalid_argument);
   for (const auto& [key, value] : good) {
-    for (const double bad : {-1.0, 0.0, std::nan("")}) {
+    for (const double bad : {-1.0, 0.0, std::nan(""), 5e-324, 1e308}) {
       auto values = good;
       values[key] = bad;
       try {

@@ -22,6 +22,7 @@ TEST(TagMeasurement, KeepsAGoodCovariance) {
   EXPECT_EQ(checked.measurement->position_covariance(0, 0), 3e-6);
 }
 
+// Fault 3, 43: a covariance that is zero, no covariance or absurd -> the configured one is used
 TEST(TagMeasurement, ReplacesACovarianceThatIsNone) {
   Matrix6d asymmetric = Matrix6d::Identity();
   asymmetric(0, 1) = 0.5;
@@ -30,7 +31,9 @@ TEST(TagMeasurement, ReplacesACovarianceThatIsNone) {
   Matrix6d not_finite = Matrix6d::Identity();
   not_finite(4, 4) = std::numeric_limits<double>::infinity();
   const Matrix6d zero = Matrix6d::Zero();
-  for (const Matrix6d& bad : {zero, asymmetric, indefinite, not_finite}) {
+  const Matrix6d huge = 1e300 * Matrix6d::Identity();
+  const Matrix6d tiny = 1e-300 * Matrix6d::Identity();
+  for (const Matrix6d& bad : {zero, asymmetric, indefinite, not_finite, huge, tiny}) {
     const auto checked = check(kPosition, kOrientation, bad, kDefaults);
     ASSERT_EQ(checked.status, MeasurementStatus::kCovarianceReplaced);
     EXPECT_NEAR(checked.measurement->position_covariance(1, 1), 4e-6, 1e-18);
@@ -38,6 +41,7 @@ TEST(TagMeasurement, ReplacesACovarianceThatIsNone) {
   }
 }
 
+// Fault 1: NaN or infinity in a measurement -> dropped
 TEST(TagMeasurement, DropsWhatIsNotFinite) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     const auto position = check({0, bad, 0}, kOrientation, Matrix6d::Identity(), kDefaults);
@@ -48,6 +52,7 @@ TEST(TagMeasurement, DropsWhatIsNotFinite) {
   }
 }
 
+// Fault 2: a quaternion of norm 0 or far from 1 -> dropped; near 1 -> normalised
 TEST(TagMeasurement, DropsAQuaternionFarFromUnitAndNormalisesOneNearIt) {
   for (const double scale : {0.0, 0.5, 2.0}) {
     Eigen::Quaterniond scaled = kOrientation;
@@ -61,6 +66,26 @@ TEST(TagMeasurement, DropsAQuaternionFarFromUnitAndNormalisesOneNearIt) {
   const auto checked = check(kPosition, near, Matrix6d::Identity(), kDefaults);
   ASSERT_TRUE(checked.measurement);
   EXPECT_NEAR(checked.measurement->orientation.norm(), 1.0, 1e-15);
+}
+
+// Fault 43: a tag absurdly far away -> dropped
+TEST(TagMeasurement, DropsWhatIsTooFarAway) {
+  for (const double far : {1e300, -1e300, 1e5, 1e3 + 1}) {
+    const auto checked = check({0, far, 0}, kOrientation, Matrix6d::Identity(), kDefaults);
+    EXPECT_EQ(checked.status, MeasurementStatus::kTooFar) << far;
+    EXPECT_FALSE(checked.measurement);
+  }
+}
+
+// Fault 18, 43: a second pose without an ambiguity within 0 .. 1, or that is none -> there is none
+TEST(TagMeasurement, TakesASecondPoseOnlyWhenItIsOne) {
+  TagMeasurement measurement;
+  for (const double bad : {0.0, -0.1, 1.1, std::nan(""), 1e300}) {
+    EXPECT_FALSE(with_alternative(measurement, kOrientation, bad).alternative) << bad;
+  }
+  EXPECT_FALSE(with_alternative(measurement, {0, 0, 0, 0}, 0.5).alternative);
+  EXPECT_FALSE(with_alternative(measurement, {std::nan(""), 0, 0, 1}, 0.5).alternative);
+  EXPECT_TRUE(with_alternative(measurement, kOrientation, 0.5).alternative);
 }
 
 TEST(TagMeasurement, TurnsItsCovarianceWithTheFrame) {

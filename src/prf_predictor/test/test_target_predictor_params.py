@@ -27,9 +27,11 @@ class TargetPredictorParams(unittest.TestCase):
         ("jerk_density", 1.0), ("position_sigma", 0.0), ("orientation_sigma", -0.1),
         ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_speed", -0.001),
         ("measurement_scale", 0.0), ("reacquire_hits", 1),
-        ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
+        ("measurement_scale", 1e308), ("gate_speed", 1e308), ("position_sigma", 5e-324),
+        ("orientation_gate_speed", -1.0), ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
     ]
 
+    # Fault 28, A9: parameters that are missing, NaN, unknown or out of bounds -> code 2 and the name
     def test_bad_values_end_the_node_with_code_2_and_their_name(self):
         folder = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config")
         good = {}

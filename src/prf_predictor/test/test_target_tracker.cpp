@@ -13,6 +13,7 @@
 namespace prf_predictor {
 namespace {
 
+// Fault 6: nothing seen yet -> no target, no predictions
 TEST(TargetTracker, KnowsNoTargetUntilOneIsSeen) {
   auto tracker = make_tracker();
   const auto blind = tracker.process(Stamp{0}, {});
@@ -52,6 +53,7 @@ TEST(TargetTracker, ForecastCovarianceIsPositiveDefiniteAndGrowsWithTheHorizon) 
   }
 }
 
+// Fault 14: no images with the tag -> coasts with growing covariance, then lost
 TEST(TargetTracker, CoastsWithGrowingCovarianceThenIsLostAndStandsStill) {
   auto tracker = make_tracker();
   double variance = variance_of(rest(tracker, 30).state);
@@ -73,6 +75,7 @@ TEST(TargetTracker, CoastsWithGrowingCovarianceThenIsLostAndStandsStill) {
   }
 }
 
+// Fault 13: the clock leaps forward by an hour -> lost, still finite
 TEST(TargetTracker, IsLostAfterALeapOfTheClock) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -81,6 +84,7 @@ TEST(TargetTracker, IsLostAfterALeapOfTheClock) {
   EXPECT_TRUE(is_finite(state.belief->motion->forecast(0)));
 }
 
+// Fault 17: a ghost of the right id 0.5 m away -> gated, the target stays
 TEST(TargetTracker, GatesAnOutlierAndKeepsTheTarget) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -122,6 +126,7 @@ TEST(TargetTracker, OpensTheGateTheLongerTheTargetWasNotSeen) {
   }
 }
 
+// Fault 17: consistent hits elsewhere -> re-acquired; scattered ghosts never
 TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -154,6 +159,7 @@ TEST(TargetTracker, BringsALostTargetBackAfterConsistentHits) {
   }
 }
 
+// Fault 18: a flipped pose -> its position is used, its orientation is not
 TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   auto tracker = make_tracker();
   rest(tracker, 60);
@@ -163,6 +169,64 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   EXPECT_TRUE(state.orientation.gated);
   EXPECT_GT(position_of(state).x(), kHome.x());
   EXPECT_LT(prf_core::log_so3(orientation_of(state)).norm(), 1e-3);
+}
+
+// Fault 17: ghosts that come beside a target that jumped do not keep it from being re-acquired
+TEST(TargetTracker, ReacquiresBesideScatteredGhosts) {
+  auto tracker = make_tracker();
+  rest(tracker, 30);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Eigen::Vector3d moved = kHome + Eigen::Vector3d(0, 0.5, 0);
+  TrackState state;
+  for (int k = 30; k < 36; ++k) {
+    const Eigen::Vector3d ghost =
+        kHome + Eigen::Vector3d(uniform(random), 1.7 + uniform(random), uniform(random));
+    state = tracker.process(k * kFrame, {measurement_at(ghost), measurement_at(moved)}).state;
+  }
+  EXPECT_EQ(state.status, TargetStatus::kTracking);
+  EXPECT_LT((position_of(state) - moved).norm(), 1e-2);
+}
+
+// Fault 12: the clock stands, the same image again and again -> nothing changes, no time passes
+TEST(TargetTracker, LetsNoTimePassWithoutImages) {
+  auto tracker = make_tracker();
+  const auto before = rest(tracker, 30).state;
+  for (int k = 0; k < 100; ++k) {
+    EXPECT_TRUE(same(before, tracker.process(before.stamp, {}).state));
+  }
+}
+
+// Fault 20, 21: a belief that is no longer finite -> dropped, the filter starts anew
+TEST(TargetTracker, StartsAnewWhenItsBeliefIsNotFinite) {
+  class Diverging : public TargetPredictor {
+   public:
+    [[nodiscard]] std::unique_ptr<TargetPredictor> clone() const override {
+      return std::make_unique<Diverging>(*this);
+    }
+    void begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) override {
+      forecast_.position = position;
+      forecast_.covariance.setIdentity();
+      forecast_.covariance.topLeftCorner<3, 3>() = covariance;
+      steps_ = 0;
+    }
+    void advance(double /*dt*/) override {
+      if (++steps_ == 10) forecast_.covariance(0, 0) = std::nan("");
+    }
+    void correct(const Eigen::Vector3d& /*p*/, const Eigen::Matrix3d& /*R*/) override {}
+    [[nodiscard]] PointForecast forecast(double /*horizon*/) const override { return forecast_; }
+
+   private:
+    PointForecast forecast_;
+    int steps_ = 0;
+  };
+  TargetTracker tracker(good_params(), std::make_shared<Diverging>());
+  for (int k = 0; k < 30; ++k) {
+    const auto state = tracker.process(k * kFrame, {measurement_at(kHome)}).state;
+    ASSERT_EQ(state.reinitialised, k == 10 || k == 20) << k;
+    ASSERT_TRUE(is_finite(state.belief->motion->forecast(0))) << k;
+    ASSERT_EQ(state.status, TargetStatus::kTracking);
+  }
 }
 
 }  // namespace

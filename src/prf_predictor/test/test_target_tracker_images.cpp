@@ -12,6 +12,7 @@
 namespace prf_predictor {
 namespace {
 
+// Fault 9, 40: an image twice -> the same forecast again, nothing changes
 TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {
   auto tracker = make_tracker();
   auto reference = make_tracker();
@@ -24,6 +25,7 @@ TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {
       same(tracker.process(20 * kFrame, {}).state, reference.process(20 * kFrame, {}).state));
 }
 
+// Fault 7: a late image within the last second -> inserted, later ones computed again
 TEST(TargetTracker, ReplaysLateImagesSoThatTheOrderOfArrivalDoesNotMatter) {
   std::mt19937 random(6);
   std::normal_distribution<double> noise(0, 1e-3);
@@ -51,6 +53,8 @@ TEST(TargetTracker, ReplaysLateImagesSoThatTheOrderOfArrivalDoesNotMatter) {
   EXPECT_TRUE(same(last_in_order, last_shuffled));
 }
 
+// Fault 8, 11, 40, A2: older than all history -> dropped; three in a row that went back -> a new
+// run
 TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack) {
   auto tracker = make_tracker();
   const Stamp start = std::chrono::seconds(100);
@@ -68,6 +72,7 @@ TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack)
   EXPECT_EQ(anew.state.status, TargetStatus::kNoTarget);
 }
 
+// Fault 14: half of the images missing -> coasts, stays finite and near the target
 TEST(TargetTracker, StaysFiniteWithHalfOfTheImagesMissing) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -90,6 +95,7 @@ TEST(TargetTracker, StaysFiniteWithHalfOfTheImagesMissing) {
   EXPECT_LT(worst, 0.05);
 }
 
+// Fault 28, A9: gates of 1e308, times of 5e-324, NaN -> refused by their names
 TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
   struct BadValue {
     std::string name;
@@ -99,6 +105,12 @@ TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
       {"orientation_gate_sigma", [](TrackerParams& p) { p.orientation_gate_sigma = NAN; }},
       {"gate_probability", [](TrackerParams& p) { p.gate_probability = 1; }},
       {"gate_speed", [](TrackerParams& p) { p.gate_speed = -1; }},
+      {"gate_speed", [](TrackerParams& p) { p.gate_speed = 1e308; }},
+      {"orientation_gate_speed", [](TrackerParams& p) { p.orientation_gate_speed = 1e308; }},
+      {"orientation_gate_sigma", [](TrackerParams& p) { p.orientation_gate_sigma = 1e308; }},
+      {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 2000000000; }},
+      {"coast_after", [](TrackerParams& p) { p.coast_after = 5e-324; }},
+      {"lost_after", [](TrackerParams& p) { p.lost_after = 1e308; }},
       {"reacquire_hits", [](TrackerParams& p) { p.reacquire_hits = 1; }},
       {"coast_after", [](TrackerParams& p) { p.coast_after = NAN; }},
       {"lost_after", [](TrackerParams& p) { p.lost_after = 0.1; }},
