@@ -39,19 +39,19 @@ TEST(MeasuredMotion, ForgetsMeasurementsBeforeALongGapAndTakesAPairOfASlowCamera
   }
 }
 
-// Fault 17: a lone ghost tag half a metre away -> no measured velocity; a second one is believed
+// Fault 17: a lone outlier tag half a metre away -> no measured velocity; a second one is believed
 TEST(MeasuredMotion, IgnoresALoneOutlierAndBelievesTheSecond) {
   auto tracker = make_tracker();
   rest(tracker, 30);
-  const Eigen::Vector3d ghost = kHome + Eigen::Vector3d(0, 0.5, 0);
+  const Eigen::Vector3d outlier = kHome + Eigen::Vector3d(0, 0.5, 0);
   const auto speed = [&](int frame, const Eigen::Vector3d& position) {
     const auto state = tracker.process(frame * kFrame, {measurement_at(position)}).state;
     return state.measured_motion.at(state.stamp).speed;
   };
-  EXPECT_LT(speed(30, ghost), 0.05);
+  EXPECT_LT(speed(30, outlier), 0.05);
   EXPECT_LT(speed(31, kHome), 0.05);
   EXPECT_LT(speed(32, kHome), 0.05);
-  EXPECT_GT(speed(33, ghost), 5);
+  EXPECT_GT(speed(33, outlier), 5);
 }
 
 // The default predictor takes a shaking target for one at rest; the measured speed does not.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orientations that change at once, unseen, or only by a flip of the pose.
+// Orientations that change at once, while hidden, or only by a flip of the pose.
 #include "prf_predictor/orientation_track.hpp"
 
 #include <gtest/gtest.h>

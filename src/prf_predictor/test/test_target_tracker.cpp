@@ -84,7 +84,7 @@ TEST(TargetTracker, IsLostAfterALeapOfTheClock) {
   EXPECT_TRUE(is_finite(state.belief->motion->forecast(0)));
 }
 
-// Fault 17: a ghost of the right id 0.5 m away -> gated, the target stays
+// Fault 17: an outlier of the right id 0.5 m away -> gated, the target stays
 TEST(TargetTracker, GatesAnOutlierAndKeepsTheTarget) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -126,7 +126,7 @@ TEST(TargetTracker, OpensTheGateTheLongerTheTargetWasNotSeen) {
   }
 }
 
-// Fault 17: consistent hits elsewhere -> re-acquired; scattered ghosts never
+// Fault 17: consistent hits elsewhere -> re-acquired; scattered ones never
 TEST(TargetTracker, ReacquiresAfterConsistentHitsOnly) {
   auto tracker = make_tracker();
   rest(tracker, 30);
@@ -171,8 +171,8 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   EXPECT_LT(prf_core::log_so3(orientation_of(state)).norm(), 1e-3);
 }
 
-// Fault 17: ghosts that come beside a target that jumped do not keep it from being re-acquired
-TEST(TargetTracker, ReacquiresBesideScatteredGhosts) {
+// Fault 17: outliers that come beside a target that jumped do not keep it from being re-acquired
+TEST(TargetTracker, ReacquiresBesideScatteredOutliers) {
   auto tracker = make_tracker();
   rest(tracker, 30);
   std::mt19937 random(3);
@@ -180,9 +180,9 @@ TEST(TargetTracker, ReacquiresBesideScatteredGhosts) {
   const Eigen::Vector3d moved = kHome + Eigen::Vector3d(0, 0.5, 0);
   TrackState state;
   for (int k = 30; k < 36; ++k) {
-    const Eigen::Vector3d ghost =
+    const Eigen::Vector3d outlier =
         kHome + Eigen::Vector3d(uniform(random), 1.7 + uniform(random), uniform(random));
-    state = tracker.process(k * kFrame, {measurement_at(ghost), measurement_at(moved)}).state;
+    state = tracker.process(k * kFrame, {measurement_at(outlier), measurement_at(moved)}).state;
   }
   EXPECT_EQ(state.status, TargetStatus::kTracking);
   EXPECT_LT((position_of(state) - moved).norm(), 1e-2);

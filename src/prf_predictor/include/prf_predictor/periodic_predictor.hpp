@@ -15,12 +15,12 @@
 #include <deque>
 #include <memory>
 
-#include "prf_predictor/covariance_calibration.hpp"
-#include "prf_predictor/filter_bank.hpp"
 #include "prf_predictor/forecast_scorer.hpp"
 #include "prf_predictor/kalman_predictor.hpp"
-#include "prf_predictor/model_weights.hpp"
-#include "prf_predictor/motion_change.hpp"
+#include "prf_predictor/periodic/covariance_calibration.hpp"
+#include "prf_predictor/periodic/filter_bank.hpp"
+#include "prf_predictor/periodic/model_weights.hpp"
+#include "prf_predictor/periodic/motion_change.hpp"
 #include "prf_predictor/periodic_params.hpp"
 #include "prf_predictor/target_predictor.hpp"
 #include "prf_predictor/window_predictor.hpp"

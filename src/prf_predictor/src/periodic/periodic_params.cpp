@@ -4,7 +4,7 @@
 #include <cmath>
 #include <prf_core/require.hpp>
 
-#include "prf_predictor/spectral_model.hpp"
+#include "prf_predictor/periodic/spectral_model.hpp"
 
 namespace prf_predictor {
 

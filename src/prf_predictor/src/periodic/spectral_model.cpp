@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/spectral_model.hpp"
+#include "prf_predictor/periodic/spectral_model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "prf_predictor/forecast_scorer.hpp"
+#include "prf_predictor/periodic/spectral_model.hpp"
 #include "prf_predictor/periodic_params.hpp"
-#include "prf_predictor/spectral_model.hpp"
 
 namespace prf_predictor {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/filter_bank.hpp"
+#include "prf_predictor/periodic/filter_bank.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/motion_change.hpp"
+#include "prf_predictor/periodic/motion_change.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/model_weights.hpp"
+#include "prf_predictor/periodic/model_weights.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_predictor/covariance_calibration.hpp"
+#include "prf_predictor/periodic/covariance_calibration.hpp"
 
 #include <cmath>
 
