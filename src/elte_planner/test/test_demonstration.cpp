@@ -151,6 +151,8 @@ const std::string kHead = std::string(kMetadata) + kHeader;
 
 class BadDemonstrationFile : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
+// Fault 32, 42, A4: demonstration too short, repeated, NaN, time not rising or absurd -> refused
+// with file, line and figure
 TEST_P(BadDemonstrationFile, IsRefusedWithTheReason) {
   const auto& [text, expected] = GetParam();
   try {
@@ -198,6 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair(kHead + "0,0,0,0,0,0,0,0\n", "norm 0.0"),
         std::pair(kHead + "0,0,0,0,0.5,0,0,1\n", "norm 1.1"),
         std::pair(kHead + kGoodRow + "1,0,0,0,0,0,0,1\n2,0,0,0,0,0,0,1\n", "all points repeated"),
+        std::pair(kHead + kGoodRow + "1,1,0,0,0,0,0,1\n4e9,2,0,0,0,0,0,1\n",
+                  "time 4e+09 s, must be at most 1000000 s"),
         std::pair(kHead + kGoodRow + "1,1e7,0,0,0,0,0,1\n2,0,0,0,0,0,0,1\n", "at most 1000000"),
         std::pair(kHead + std::string("\x01\x02,0,0,0,0,0,0,1\n"), "column 'time' is '?\?'")));
 
