@@ -143,12 +143,14 @@ class TargetPredictorNode(unittest.TestCase):
             covariance = np.reshape(prediction.covariance, (6, 6))
             self.assertGreater(np.linalg.eigvalsh(covariance).min(), 0.0)
 
+    # Fault 6: no tf at the start -> an empty image gives a forecast of no target
     def test_empty_image_needs_no_tf_and_gives_no_target(self):
         self.images.publish(detections(100.0, count=0))
         forecast = self.expect(1)
         self.assertEqual(forecast.status, TargetForecast.NO_TARGET)
         self.assertEqual(forecast.predictions, [])
 
+    # Fault 5: tf comes late -> the image waits for it
     def test_waits_for_tf_after_the_stamp_even_when_it_is_a_sample(self):
         for count, (stamp, after) in enumerate([(100.033, 100.04), (100.05, 100.06)], start=1):
             self.send_tf(after - 0.02, after - TF_PERIOD)
@@ -194,6 +196,7 @@ class TargetPredictorNode(unittest.TestCase):
             reference = reference or found
             self.assertTrue(found == reference, "some forecast differs")
 
+    # Fault 1, 4, 16: NaN, another id, an unknown frame, an outlier -> a forecast without measurement
     def test_unusable_detections_give_a_forecast_without_measurement(self):
         self.send_tf(100.0, 101.0)
         rospy.rostime.wallsleep(0.3)
@@ -216,6 +219,7 @@ class TargetPredictorNode(unittest.TestCase):
         self.images.publish(detections(99.9))
         self.assertFalse(self.expect(1).measured)
 
+    # Fault 5: tf never comes -> the image is given up by the stamps of later ones
     def test_gives_up_on_silent_tf_by_the_stamps_of_images(self):
         self.images.publish(detections(100.0))
         self.images.publish(detections(100.4))
@@ -224,6 +228,7 @@ class TargetPredictorNode(unittest.TestCase):
         self.images.publish(detections(100.6))
         self.assertEqual(self.expect(1).status, TargetForecast.NO_TARGET)
 
+    # Fault 10, 40: a lone stamp far ahead -> dropped
     def test_lone_stamp_far_in_the_future_is_dropped(self):
         self.send_tf(100.0, 100.4)
         rospy.rostime.wallsleep(0.3)
@@ -235,6 +240,7 @@ class TargetPredictorNode(unittest.TestCase):
         self.assertTrue(all(f.measured and f.status == TargetForecast.TRACKING
                             for f in self.forecasts))
 
+    # Fault 13: the clock leaps forward -> followed once several stamps agree, the target is lost
     def test_time_that_goes_on_after_a_leap_is_followed(self):
         self.send_tf(100.0, 100.1)
         self.images.publish(detections(100.05))
@@ -251,6 +257,19 @@ class TargetPredictorNode(unittest.TestCase):
                          [100.05, 900.1, 900.15])
         self.assertTrue(all(f.status == TargetForecast.LOST for f in self.forecasts[1:]))
 
+    # Fault 41, 42, A3, A4: tf of unrelated frames, stamps at the end of ROS time -> ignored, dropped
+    def test_foreign_tf_and_stamps_at_the_end_of_time_cost_nothing(self):
+        self.send_tf(100.0, 100.2)
+        for k, stamp in enumerate((100.05, 100.1, 100.15), start=1):
+            for wrong in (0.0, stamp - 1.5, stamp + 2.0, 4294967295.0):
+                self.tf.publish(TFMessage([transform("map", "odom", wrong, (1.0, 0.0, 0.0)),
+                                           transform(ARM, "lamp", wrong, (math.nan, 0.0, 0.0))]))
+            self.tf.publish(TFMessage([transform(BASE, ARM, 4294967295.0, (1.0, 0.0, 0.0))]))
+            self.images.publish(detections(4294967295.0))
+            self.images.publish(detections(stamp))
+            self.assertTrue(self.expect(k).measured)
+
+    # Fault 19: a second publisher of tag_detections -> counted and named
     def test_second_publisher_is_reported(self):
         counters = {}
 
