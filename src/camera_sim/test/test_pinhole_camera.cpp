@@ -66,7 +66,7 @@ TEST(PinholeCamera, RefusesALensThatFoldsTheImage) {
                std::invalid_argument);
 }
 
-// Fault 44, A9: focal length or axis that no camera has -> refused, at once
+// Fault 44, 52: focal length or axis that no camera has -> refused, at once
 TEST(PinholeCamera, RefusesNumbersThatNoCameraHas) {
   ASSERT_NO_THROW(PinholeCamera().validate());
   for (double PinholeCamera::*const field :

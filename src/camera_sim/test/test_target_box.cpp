@@ -82,7 +82,7 @@ TEST(TargetBox, StandsOnTheChassisOfACart) {
   EXPECT_GT(cart_chassis().pose_in_platform.translation().z() - 0.5 * cart_chassis().size.z(), 0.0);
 }
 
-// Fault 43, A9: sizes and places NaN, 1e308 or 5e-324 -> refused
+// Fault 43, 52: sizes and places NaN, 1e308 or 5e-324 -> refused
 TEST(TargetBox, RefusesImpossibleSizes) {
   const std::vector<std::function<void(TargetBox&)>> faults{
       [](TargetBox& box) { box.tag_size = 0.0; },

@@ -151,7 +151,7 @@ const std::string kHead = std::string(kMetadata) + kHeader;
 
 class BadDemonstrationFile : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
-// Fault 32, 42, A4: demonstration too short, repeated, NaN, time not rising or absurd -> refused
+// Fault 32, 42: demonstration too short, repeated, NaN, time not rising or absurd -> refused
 // with file, line and figure
 TEST_P(BadDemonstrationFile, IsRefusedWithTheReason) {
   const auto& [text, expected] = GetParam();

@@ -46,7 +46,7 @@ TEST_F(DemonstrationFoldersTest, HoldTheFolderOfTheFirstFileAndTheConfiguredOnes
   EXPECT_EQ(both.resolve("../more/third.csv"), path("more/third.csv"));
 }
 
-// Fault A11: a message names a file elsewhere, by .., a link or NUL -> refused, the file not opened
+// Fault 55: a message names a file elsewhere, by .., a link or NUL -> refused, the file not opened
 TEST_F(DemonstrationFoldersTest, RefuseWhateverLeadsOut) {
   const DemonstrationFolders folders(path("skills/first.csv"), path("more"));
   for (const std::string& name :

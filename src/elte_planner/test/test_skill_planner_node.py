@@ -123,7 +123,7 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual(
             self.plans_after(forecast(8.0, frame="world"), progress(8.06, 8.0)), [])
 
-    # Fault A7, A4, 42, 43: one progress or forecast with absurd numbers -> dropped or taken as lost; the next is planned
+    # Fault 42, 43, 51: one progress or forecast with absurd numbers -> dropped or taken as lost; the next is planned
     def test_5_survives_absurd_messages(self):
         before = self.plans_after(forecast(8.5), progress(8.56, 8.5, frozen=2))[-1]
         end, most = rospy.Time(2**32 - 1, 999999999), 2**32 - 1
@@ -151,7 +151,7 @@ class SkillPlannerNode(unittest.TestCase):
             forecast(1.0, status=TargetForecast.NO_TARGET), progress(1.06, 1.0))
         self.assertEqual(plan.status, SkillTrajectory.NO_PLAN)
 
-    # Fault A11: a progress names a demonstration outside the configured folders -> REFUSED, it is not opened
+    # Fault 55: a progress names a demonstration outside the configured folders -> REFUSED, it is not opened
     def test_7_opens_no_file_elsewhere(self):
         (plan,) = self.plans_after(forecast(10.0), progress(10.06, 10.0, 2, "/etc/passwd", 9))
         self.assertEqual((plan.status, plan.poses), (SkillTrajectory.REFUSED, []))
@@ -179,7 +179,7 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual((kept.status, kept.poses), (moved.status, moved.poses))
         self.assertEqual(back.poses, before.poses)
 
-    # Fault 50, A13: a solve is late -> its plan is sent all the same, counted and told in diagnostics
+    # Fault 50: a solve is late -> its plan is sent all the same, counted and told in diagnostics
     def test_8_tells_late_solves_and_sends_their_plans(self):
         plans: list[SkillTrajectory] = []
         reports: dict[str, int] = {}
@@ -229,7 +229,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.assertEqual(len(fatal), 1, output)
         self.assertIn(expected, fatal[0])
 
-    # Fault 28, A9: garbage in the planner's parameters -> exit code 2 and one line naming the parameter
+    # Fault 28, 52: garbage in the planner's parameters -> exit code 2 and one line naming the parameter
     def test_bad_values_are_refused_by_name(self):
         self.check("nodes = 2", nodes=2)
         self.check("nodes = 50.5", nodes=50.5)

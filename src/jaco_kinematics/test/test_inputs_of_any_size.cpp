@@ -67,7 +67,7 @@ TEST(JacoInverseInputs, ASeedOutsideItsLimitsGivesASolutionInside) {
   }
 }
 
-// Fault 28, A9: a parameter beyond its bounds on either side -> refused
+// Fault 28, 52: a parameter beyond its bounds on either side -> refused
 TEST(IkParams, RefuseValuesBeyondTheirBounds) {
   const std::vector<std::function<double*(IkParams&)>> members = {
       [](IkParams& params) { return &params.weight[2]; },

@@ -121,7 +121,7 @@ TEST(Lockstep, AcceptsAResponseThatArrivesBeforeItIsExpected) {
   EXPECT_FALSE(lockstep.first_silent());
 }
 
-// Fault 10, A7: any response stamped far ahead -> dropped; the ones after it count as before
+// Fault 10, 51: any response stamped far ahead -> dropped; the ones after it count as before
 TEST(Lockstep, IsNotWedgedByAResponseToWhatWasNeverPublished) {
   Lockstep framework(Peer::kFramework);
   Lockstep guide(Peer::kGuide);
@@ -147,7 +147,7 @@ TEST(Lockstep, IsNotWedgedByAResponseToWhatWasNeverPublished) {
   EXPECT_TRUE(guide.is_complete());
 }
 
-// Fault 42, A7: progress names a forecast of the far future -> no trajectory of it is waited for
+// Fault 42, 51: progress names a forecast of the far future -> no trajectory of it is waited for
 TEST(Lockstep, AsksForNoTrajectoryOfAForecastThatCannotBe) {
   Lockstep lockstep(Peer::kFramework);
   lockstep.published_joint_states(10 * kMs);

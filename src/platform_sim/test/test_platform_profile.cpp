@@ -100,7 +100,7 @@ TEST(PlatformProfile, RefusesMotionBeyondATreadmillAndNamesAxisValueAndBound) {
   }
 }
 
-// Fault 43, A9: amplitudes, rates, phases, lags beyond physical bounds -> refused by name
+// Fault 43, 52: amplitudes, rates, phases, lags beyond physical bounds -> refused by name
 TEST(PlatformProfile, RefusesNumbersThatNoMotionHas) {
   for (const std::string number : {".nan", ".inf", "1e308", "-1e308", "1e5"}) {
     for (const std::string name : {"amplitude", "rate", "phase"}) {

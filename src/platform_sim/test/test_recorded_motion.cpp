@@ -74,7 +74,7 @@ TEST(RecordedMotion, TellsItsExtremes) {
   EXPECT_NEAR(most.acceleration[0], 4.0, 0.1);
 }
 
-// Fault 43, A9: values or steps of time beyond physical bounds, endless files -> refused with row
+// Fault 43, 52: values or steps of time beyond physical bounds, endless files -> refused with row
 TEST(RecordedMotion, RefusesWhatNoRecordingHolds) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"time,a\n0,1\n0.5,1e308\n1,1\n2,1\n", "line 3: a = 1e308"},

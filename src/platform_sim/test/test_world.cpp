@@ -194,7 +194,7 @@ TEST(World, SeedChangesTheMotionOfThePlatform) {
   EXPECT_FALSE(first.platform().pose.isApprox(second.platform().pose, 1e-6));
 }
 
-// Fault 28, A9: world parameters NaN or beyond physical bounds -> refused
+// Fault 28, 52: world parameters NaN or beyond physical bounds -> refused
 TEST(World, RefusesBadConfigurations) {
   const double nan = std::nan("");
   const std::vector<std::function<void(WorldParams&)>> faults{

@@ -69,7 +69,7 @@ TEST(ArmController, ReportsASetpointOutOfReach) {
   EXPECT_NEAR(result.deviation, 2.0, 0.01);
 }
 
-// Fault 1, 39, A1: joints or set-point that cannot be used -> holds, says why, and reports the
+// Fault 1, 39: joints or set-point that cannot be used -> holds, says why, and reports the
 // following error all the same
 TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
   ArmController controller(controller_params());

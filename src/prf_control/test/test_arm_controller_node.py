@@ -130,7 +130,7 @@ class ArmControllerNode(unittest.TestCase):
         command, _ = self.ask(0, hold(self.stamp(0)), shuffled=True)
         self.assertEqual(list(command.points[0].positions), HOME)
 
-    # Fault 40, A2: a joint_states of the legs alone, whatever its stamp -> no tick, nothing is reset
+    # Fault 40: a joint_states of the legs alone, whatever its stamp -> no tick, nothing is reset
     def test_joint_states_without_the_arm_are_no_tick(self):
         other = JointState(name=LEGS, position=[0.1, 0.2])
         other.header.stamp = self.stamp(50)
@@ -138,7 +138,7 @@ class ArmControllerNode(unittest.TestCase):
         command, _ = self.ask(0, hold(self.stamp(0)))
         self.assertEqual(list(command.points[0].positions), HOME)
 
-    # Fault 46, A12: joints of other names, or a few of the arm's -> dropped; the log names expected and received ones
+    # Fault 46: joints of other names, or a few of the arm's -> dropped; the log names expected and received ones
     def test_other_joint_names_are_told(self):
         lines, seen = [], threading.Condition()
 
@@ -239,7 +239,7 @@ class ArmControllerNode(unittest.TestCase):
         self.move(60, 140, 0.3, 2.0)
         self.assertEqual(rospy.get_param('arm_controller/acceleration'), 2.0)
 
-    # Fault 29, A9: a change with one bad value -> refused as a whole with name and bound
+    # Fault 29, 52: a change with one bad value -> refused as a whole with name and bound
     def test_tuning_is_refused_whole_with_name_and_bound(self):
         self.addCleanup(self.tune, **FULL)
         for numbers, reason in (

@@ -59,7 +59,7 @@ class ArmControllerParams(unittest.TestCase):
             for words in said:
                 self.assertIn(words, fatal[0])
 
-    # Fault 28, 43, A9: a parameter that is not finite, absurd or beyond physics -> exit code 2 with name, value and bound
+    # Fault 28, 43, 52: a parameter that is not finite, absurd or beyond physics -> exit code 2 with name, value and bound
     def test_every_bad_value_is_refused_with_name_value_and_bound(self):
         self.check_refused([(dict(self.good, **{name: value}), (name, said, bound))
                             for name, value, said, bound in CATALOGUE])
@@ -68,7 +68,7 @@ class ArmControllerParams(unittest.TestCase):
         self.check_refused([({k: v for k, v in self.good.items() if k != name}, (name, 'missing'))
                             for name in self.good])
 
-    # Fault 45, A0: no robot_description, or of another arm -> exit code 2 and what is missing or differs
+    # Fault 45: no robot_description, or of another arm -> exit code 2 and what is missing or differs
     def test_an_arm_that_is_not_the_compiled_one_is_refused(self):
         self.check_refused([(self.good, ('robot_description missing after 5 s', 'URDF of the robot'))])
         with open(self.urdf) as file:

@@ -85,7 +85,7 @@ Setpoint random_setpoint(std::mt19937& random, int mood) {
   return setpoint;
 }
 
-// Fault 37, A0: joints in and out of limits, any set-point, NaN, respawns -> no command farther
+// Fault 37: joints in and out of limits, any set-point, NaN, respawns -> no command farther
 // from the arm than its bound
 TEST(CommandBounds, HoldWhateverComes) {
   std::mt19937 random(3);
@@ -122,7 +122,7 @@ TEST(CommandBounds, HoldWhateverComes) {
   EXPECT_GT(followed, 3000);
 }
 
-// Fault 37, A0: joint 4 reported as -1.0 with a set-point that means hold -> the command stays
+// Fault 37: joint 4 reported as -1.0 with a set-point that means hold -> the command stays
 // there, in the turn of the limits
 TEST(CommandBounds, HoldAnArmThatReportsAnotherTurn) {
   ArmController controller(controller_params());
@@ -140,7 +140,7 @@ TEST(CommandBounds, HoldAnArmThatReportsAnotherTurn) {
   }
 }
 
-// Fault 37, A0: joint 2 at 0.70, limit 0.82 -> holds there; to follow it first goes back inside,
+// Fault 37: joint 2 at 0.70, limit 0.82 -> holds there; to follow it first goes back inside,
 // slowly, and says so
 TEST(CommandBounds, BringAnArmOutsideItsLimitsBackSlowly) {
   const double lower = jaco_joint_limits().lower[1];

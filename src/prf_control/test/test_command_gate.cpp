@@ -43,7 +43,7 @@ TEST(CommandGate, PassesWhatKeepsEveryBoundUnchanged) {
   EXPECT_FALSE(output.anew);
 }
 
-// Fault A0: whatever a defect in the controller asks for -> the gate refuses it and brakes instead
+// Fault 37: whatever a defect in the controller asks for -> the gate refuses it and brakes instead
 TEST(CommandGate, RefusesEachBreachAndBrakes) {
   const double nan = std::nan("");
   const std::vector<std::pair<const char*, std::function<void(GateInput&)>>> breaches = {

@@ -110,7 +110,7 @@ TEST(SetpointFollower, PassesSingularPosturesWithoutAJump) {
   EXPECT_GT(refused, 0) << "no line meets a change of branch";
 }
 
-// Fault 28, A9: a parameter beyond its physical bounds on either side -> refused by name
+// Fault 28, 52: a parameter beyond its physical bounds on either side -> refused by name
 TEST(FollowerParams, RefuseImpossibleValuesByName) {
   const double nan = std::nan("");
   const auto refusal = [](double FollowerParams::*member, double value) -> std::string {
@@ -144,7 +144,7 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
             std::string::npos);
 }
 
-// Fault 28, A9: as above, for the controller's own parameters
+// Fault 28, 52: a bound of the controller itself beyond physics -> refused by name
 TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
   const auto refusal = [](const ArmControllerParams& bad) -> std::string {
     try {

@@ -205,7 +205,7 @@ TEST(StepToRest, KeepsTheDirectionAndStopsAsFastAsAllowed) {
   EXPECT_EQ(step_to_rest(state, kDt, limits).state.position, state.position);
 }
 
-// Fault A9: an acceleration limit lowered in full motion -> the arm still stops with `braking`,
+// Fault 52: an acceleration limit lowered in full motion -> the arm still stops with `braking`,
 // before its position limits
 TEST(StepToRest, BrakesWithTheBrakingLimitAndSpeedsUpWithTheAcceleration) {
   MotionLimits limits = some_limits();

@@ -41,7 +41,7 @@ double largest_step(const Results& results) {
   return largest;
 }
 
-// Fault 50, A13: set-points late by less than max_wait -> the ticks wait, every set-point is
+// Fault 50: set-points late by less than max_wait -> the ticks wait, every set-point is
 // followed, nothing is held
 TEST(LateChain, WaitsForSetpointsWithinMaxWait) {
   for (const int late : {0, 6, 28}) {
@@ -55,7 +55,7 @@ TEST(LateChain, WaitsForSetpointsWithinMaxWait) {
   }
 }
 
-// Fault 50, A13: set-points later than max_wait -> the arm brakes and holds, STALE; late ones are
+// Fault 50: set-points later than max_wait -> the arm brakes and holds, STALE; late ones are
 // dropped and counted
 TEST(LateChain, HoldsWhileSetpointsAreLaterThanMaxWait) {
   ArmController controller(controller_params());
@@ -73,7 +73,7 @@ TEST(LateChain, HoldsWhileSetpointsAreLaterThanMaxWait) {
   EXPECT_GT(controller.joiner_counts().late_setpoints, 100u);
 }
 
-// Fault 50, A13: ticks 60 to 290 ms apart -> one step of that length within all limits; farther
+// Fault 50: ticks 60 to 290 ms apart -> one step of that length within all limits; farther
 // apart -> anew from the joints
 TEST(LateChain, TakesLateTicksAsOneLongStep) {
   for (const int gap : {6, 29}) {
@@ -98,7 +98,7 @@ TEST(LateChain, TakesLateTicksAsOneLongStep) {
   EXPECT_EQ(result.command->position, moved);
 }
 
-// Fault 39, 50, A13: ticks of an arm that stood still come in a burst -> no command beyond the
+// Fault 39, 50: ticks of an arm that stood still come in a burst -> no command beyond the
 // bound from where it stands
 TEST(LateChain, DoesNotRunAwayFromAnArmThatDoesNotMove) {
   ArmController controller(controller_params());
@@ -113,7 +113,7 @@ TEST(LateChain, DoesNotRunAwayFromAnArmThatDoesNotMove) {
   EXPECT_GT(controller.counts().restarts, 5u);
 }
 
-// Fault 40, A2: one tick or set-point late, far ahead or doubled -> dropped and counted, the run
+// Fault 40: one tick or set-point late, far ahead or doubled -> dropped and counted, the run
 // goes on bit by bit
 TEST(OddMessages, CostNothingButThemselves) {
   Results expected;
@@ -173,7 +173,7 @@ TEST(Respawn, GoesOnFromTheMeasuredJointsWithoutAJump) {
   }
 }
 
-// Fault 29, A9: tuned in full motion -> refused whole, or applied, and the arm stops as soon as it
+// Fault 29, 52: tuned in full motion -> refused whole, or applied, and the arm stops as soon as it
 // would have before
 TEST(LiveTuning, LeavesAMotionAsStoppableAsItWas) {
   ArmController controller(controller_params());

@@ -52,7 +52,7 @@ TEST(MeasuredJoints, AreTakenInTheTurnOfTheLimits) {
   }
 }
 
-// Fault 37, A0: joint 4 reported as -1.0 rad -> it is 5.283 rad, within its limits
+// Fault 37: joint 4 reported as -1.0 rad -> it is 5.283 rad, within its limits
 TEST(MeasuredJoints, FindsTheTurnWithinTheLimits) {
   JointVector q = home();
   q[3] = -1.0;

@@ -47,7 +47,7 @@ void expect_refusal(const std::string& reason, const std::string& words) {
 
 TEST(RobotDescription, OfTheArmIsAccepted) { EXPECT_EQ(refusal(model()), ""); }
 
-// Fault 45, A0: robot_description of another arm -> the controller refuses to start and says what
+// Fault 45: robot_description of another arm -> the controller refuses to start and says what
 // differs
 TEST(RobotDescription, OfAnotherArmIsRefused) {
   expect_refusal(refusal(model(), names("panda_joint")), "not [panda_joint1, panda_joint2");

@@ -44,7 +44,7 @@ TEST(Bounds, RefuseByNameValueAndBound) {
             "P = 20 at most, must be finite and within +-10 m^2");
 }
 
-// Fault 42, A4: stamps at the ends of ROS time -> refused, also an hour before the end
+// Fault 42: stamps at the ends of ROS time -> refused, also an hour before the end
 TEST(Bounds, RefuseStampsThatArithmeticCouldOverflow) {
   const Stamp end = std::chrono::seconds(4'294'967'295);
   for (const Stamp stamp : {Stamp{0}, kMaxStamp, Stamp{std::chrono::seconds(1'800'000'000)}}) {

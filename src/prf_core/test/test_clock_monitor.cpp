@@ -140,7 +140,7 @@ class Disturbed : public testing::TestWithParam<unsigned> {
   std::mt19937 random_{GetParam()};
 };
 
-// Fault 40, A2: one message late, early or doubled -> it is dropped, no new run begins, all others
+// Fault 40: one message late, early or doubled -> it is dropped, no new run begins, all others
 // count
 TEST_P(Disturbed, LosesNoMessageInOrderToSingleWrongOnes) {
   ClockMonitor clock(kBounds);

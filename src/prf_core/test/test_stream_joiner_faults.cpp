@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Fault 40, A2: a secondary late, doubled or early -> it is not used at any other tick, and none is
+// Fault 40: a secondary late, doubled or early -> it is not used at any other tick, and none is
 // lost
 TEST(StreamJoiner, LosesNoPrimaryToASecondaryWithAWrongStamp) {
   for (const int wrong : {0, 4000, 4990, 5150, 5900, 6500, 1'000'000}) {
@@ -27,7 +27,7 @@ TEST(StreamJoiner, LosesNoPrimaryToASecondaryWithAWrongStamp) {
   }
 }
 
-// Fault 40, A2: a secondary 60 ms early -> one primary at most goes without
+// Fault 40: a secondary 60 ms early -> one primary at most goes without
 TEST(StreamJoiner, LosesAtMostOnePrimaryToASecondaryThatIsALittleEarly) {
   Joiner joiner = joiner_with(milliseconds(300));
   primaries(joiner, {5000});
@@ -55,7 +55,7 @@ TEST(StreamJoiner, TellsWhatItDoesWithASecondary) {
   EXPECT_EQ(secondary(joiner, 6001), StampOrder::kFarAhead);
 }
 
-// Fault 40, A2: a primary late, from the past or far ahead -> dropped, the run goes on
+// Fault 40: a primary late, from the past or far ahead -> dropped, the run goes on
 TEST(StreamJoiner, DropsPrimariesOutOfOrder) {
   Joiner joiner = joiner_with(milliseconds(300));
   primaries(joiner, {5000, 4990, 10, 5010, 900'000, 5020});
@@ -64,7 +64,7 @@ TEST(StreamJoiner, DropsPrimariesOutOfOrder) {
 }
 
 // Whichever stream shows the jump first; a secondary that is left of the old run is never joined.
-// Fault 11, A2: the clock jumps back -> a new run at the third tick, nothing old is joined to it
+// Fault 11: the clock jumps back -> a new run at the third tick, nothing old is joined to it
 TEST(StreamJoiner, BeginsANewRunWhenThePrimariesGoBack) {
   for (const bool secondary_first : {true, false}) {
     Joiner joiner = joiner_with(milliseconds(300));
@@ -105,7 +105,7 @@ TEST(StreamJoiner, ForgetsASecondaryFarAheadOfTheFirstPrimary) {
   EXPECT_EQ(decided(joiner), "");
 }
 
-// Fault 40, A7: a primary that names a stamp far ahead -> it alone goes without, the rest is joined
+// Fault 40, 51: a primary that names a stamp far ahead -> it alone goes without, the rest is joined
 TEST(StreamJoiner, DoesNotWaitForAKeyFarAheadOfItsStamp) {
   Joiner joiner = joiner_with(Duration::max());
   joiner.push_primary(milliseconds(170), milliseconds(900'000), 170);

@@ -36,7 +36,7 @@ TEST(FollowingMonitor, MeasuresTheHandAgainstTheSetPoint) {
   EXPECT_FALSE(monitor.is_on_goal());
 }
 
-// Fault 39, A1: hand thrown to and fro across the bound -> it does not follow until it stays within
+// Fault 39: hand thrown to and fro across the bound -> it does not follow until it stays within
 TEST(FollowingMonitor, CountsAHandThatComesAndGoesAsOff) {
   FollowingMonitor monitor;
   for (int tick = 0; tick < 100; ++tick) {
@@ -60,7 +60,7 @@ TEST(FollowingMonitor, IsOffWhileTheRotationIsAndWhenAnErrorIsNotANumber) {
   }
 }
 
-// Fault 38, A1: controller silent, failing, or joints unknown -> the arm is off whatever the error
+// Fault 38: controller silent, failing, or joints unknown -> the arm is off whatever the error
 // is
 TEST(FollowingMonitor, IsOffWhenTheControllerOrTheHandIsNotToBeTrusted) {
   FollowingInput silent = input_at(1, 0);

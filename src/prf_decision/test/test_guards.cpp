@@ -72,7 +72,7 @@ TEST(Guards, JudgeAForecastNoFartherAheadThanTheExecutionUsesIt) {
   EXPECT_TRUE(check_forecast(usual_guards(), input));
 }
 
-// Fault 43, A5: a prediction that is not a number -> a violation, as every comparison that it fails
+// Fault 43: a prediction that is not a number -> a violation, as every comparison that it fails
 TEST(Guards, TakeNotANumberForAViolation) {
   TargetForecast forecast = forecast_of(kNow, {0.9, 0, 0.65}, {0, 0, 0});
   forecast.predictions[0].target.pose.position.x() = NAN;

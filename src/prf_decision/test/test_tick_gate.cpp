@@ -175,7 +175,7 @@ TEST(TickGate, UsesTheReportOnATickAfterTheControlDelayAndWaitsForIt) {
   EXPECT_EQ(tick->control->reason, "stalled");
 }
 
-// Fault 38, A1: controller dead -> its reports are silent by data time, heard again once it is back
+// Fault 38: controller dead -> its reports are silent by data time, heard again once it is back
 TEST(TickGate, GivesUpOnASilentControllerAndWaitsAgainOnceItIsHeard) {
   TickGate gate(kGate);
   gate.push_forecast({Stamp{0}, nullptr});

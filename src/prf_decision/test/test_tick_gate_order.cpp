@@ -10,7 +10,7 @@
 namespace prf_decision {
 namespace {
 
-// Fault 40, A2: one tick, forecast, plan or report late, early or doubled -> dropped; the run goes
+// Fault 40: one tick, forecast, plan or report late, early or doubled -> dropped; the run goes
 // on
 TEST(TickGate, DropsDuplicatesAndStampsFarAhead) {
   TickGate gate(kGate);
@@ -46,7 +46,7 @@ TEST(TickGate, DropsEverythingWhenTheTicksGoBack) {
   EXPECT_EQ(gate.push_plan_result(plan_result(milliseconds(60))), PushResult::kAccepted);
 }
 
-// Fault 40, A2: forecasts and plans that go back -> dropped; only the ticks begin a new run
+// Fault 40: forecasts and plans that go back -> dropped; only the ticks begin a new run
 TEST(TickGate, DropsForecastsThatGoBackAndStaysInItsRun) {
   TickGate gate(kGate);
   gate.push_tick(std::chrono::seconds(5));

@@ -34,7 +34,7 @@ TEST(CameraIntrinsics, AcceptsCamerasOfAllKinds) {
   EXPECT_EQ(refusal_of({900, 900, -100, 400, 320, 240, {}}), "");
 }
 
-// Fault 44, A6: absurd focal lengths, axis, size or lens -> refused by name before a library sees
+// Fault 44: absurd focal lengths, axis, size or lens -> refused by name before a library sees
 // it
 TEST(CameraIntrinsics, NameTheValueThatNoCameraHas) {
   struct BadValue {

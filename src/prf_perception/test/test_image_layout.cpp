@@ -24,7 +24,7 @@ TEST(ImageLayout, AcceptsWholeImagesWithAndWithoutPadding) {
   EXPECT_EQ(refusal_of({"rgb8", 32, 32, 96, 96 * 32}), "");
 }
 
-// Fault 44, A6: size and data disagree, also beyond 32 bits -> refused before the data are read
+// Fault 44: size and data disagree, also beyond 32 bits -> refused before the data are read
 TEST(ImageLayout, RefusesWhatDoesNotFitItsData) {
   // 15790321 * 272 = 16 and 65536 * 65536 = 0 in 32 bits.
   EXPECT_NE(refusal_of({"mono8", 15790321, 272, 15790321, 16}), "");

@@ -42,7 +42,7 @@ TEST(StampJoin, JoinsNothingOnceTheOtherStreamIsPast) {
   EXPECT_EQ(joined_of(join), std::vector<std::string>{"a-"});
 }
 
-// Fault 40, A2: one camera_info far early or late -> nothing is reset, each image finds its own
+// Fault 40: one camera_info far early or late -> nothing is reset, each image finds its own
 TEST(StampJoin, GoesOnAfterOneWrongStampOfThePartner) {
   for (const auto wrong : {0 * kMs, 9'990 * kMs, 10'005 * kMs, 60'000 * kMs, 100'000'000 * kMs}) {
     Join join(300 * kMs);
@@ -64,7 +64,7 @@ TEST(StampJoin, GoesOnAfterOneWrongStampOfThePartner) {
   }
 }
 
-// Fault 40, A2: one image old, early or doubled -> dropped; the run goes on with the next image
+// Fault 40: one image old, early or doubled -> dropped; the run goes on with the next image
 TEST(StampJoin, DropsOneWrongStampOfItsOwn) {
   for (const auto wrong : {0 * kMs, 5'000 * kMs, 9'990 * kMs, 10'132 * kMs, 60'000 * kMs}) {
     Join join(300 * kMs);

@@ -188,7 +188,7 @@ class TagDetectorNode(unittest.TestCase):
         self.answer(6)
         self.assertEqual([len(a.detections) for a in self.answers[3:]], [0, 1, 1])
 
-    # Fault 44, 43, A6: image and camera_info absurd or not of one another -> empty array, node goes on
+    # Fault 43, 44: image and camera_info absurd or not of one another -> empty array, node goes on
     def test_absurd_images_and_cameras_give_empty_arrays(self):
         def image(**fields):
             return lambda image, _: [setattr(image, name, value) for name, value in fields.items()]
@@ -226,7 +226,7 @@ class TagDetectorNode(unittest.TestCase):
         self.send(frame(0))
         self.assertEqual(len(self.answer(len(changes) + 1).detections), 1)
 
-    # Fault 40, 42, A2: one image or camera_info old, early, doubled -> dropped; the next is answered
+    # Fault 40, 42: one image or camera_info old, early, doubled -> dropped; the next is answered
     def test_wrong_stamps_cost_one_message(self):
         self.send(frame(0))
         self.answer()
@@ -273,7 +273,7 @@ class TagDetectorParameters(unittest.TestCase):
         ("tag_sise", 0.1), ("quad_decimate", None),
     ]
 
-    # Fault 28, A9: parameters garbage, NaN or beyond physical bounds -> refused by name, code 2
+    # Fault 28, 52: parameters garbage, NaN or beyond physical bounds -> refused by name, code 2
     def test_bad_values_end_the_node_with_code_2_and_their_name(self):
         path = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config", "tag_detector.yaml")
         with open(path, encoding="utf-8") as file:

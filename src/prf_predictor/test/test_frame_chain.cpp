@@ -64,7 +64,7 @@ TEST(FrameChain, ComposesRotationsOnBothSides) {
   EXPECT_LT((found.camera_in_planning.linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
 
-// Fault 41, A3: tf of unrelated frames with any stamp -> ignored, the camera's chain is as without
+// Fault 41: tf of unrelated frames with any stamp -> ignored, the camera's chain is as without
 TEST(FrameChain, IgnoresUnrelatedFramesWhateverTheirStamps) {
   auto chain = robot();
   const double nan = std::nan("");
@@ -89,7 +89,7 @@ TEST(FrameChain, IgnoresUnrelatedFramesWhateverTheirStamps) {
   EXPECT_TRUE(chain.is_between("planning", "camera"));
 }
 
-// Fault 40, A3: one late, early or doubled tf of the camera's chain -> dropped, the rest goes on
+// Fault 40: one late, early or doubled tf of the camera's chain -> dropped, the rest goes on
 TEST(FrameChain, DropsSingleWrongStampsOfTheChain) {
   auto chain = robot();
   for (int k = 0; k < 20; ++k) move(chain, kStart + k * kTick);
@@ -103,7 +103,7 @@ TEST(FrameChain, DropsSingleWrongStampsOfTheChain) {
   EXPECT_EQ(chain.lookup("camera", kStart + 20 * kTick).readiness, Readiness::kWait);
 }
 
-// Fault 11, A3: the clock of the camera's chain goes back -> three samples prove it, old tf is gone
+// Fault 11: the clock of the camera's chain goes back -> three samples prove it, old tf is gone
 TEST(FrameChain, FollowsAClockThatWentBackOrLeapt) {
   for (const Duration leap :
        {Duration(std::chrono::seconds(-50)), Duration(std::chrono::seconds(50))}) {
@@ -146,7 +146,7 @@ TEST(FrameChain, HasNoPoseOfAnUnknownFrame) {
   EXPECT_EQ(chain.lookup("", kStart).readiness, Readiness::kNever);
 }
 
-// Fault 43, A3: tf with NaN, absurd numbers, a zero quaternion or a loop of frames -> refused
+// Fault 43: tf with NaN, absurd numbers, a zero quaternion or a loop of frames -> refused
 TEST(FrameChain, RefusesWhatIsNoTransform) {
   auto chain = robot();
   move(chain, kStart);
@@ -166,7 +166,7 @@ TEST(FrameChain, RefusesWhatIsNoTransform) {
   EXPECT_NEAR(camera_x(chain, kStart), -0.5, 1e-12);
 }
 
-// Fault 19, A3: another node gives a frame of the camera's chain another parent -> it keeps its own
+// Fault 19: another node gives a frame of the camera's chain another parent -> it keeps its own
 TEST(FrameChain, KeepsTheParentOfAFrameAgainstASecondPublisher) {
   auto chain = robot();
   for (int k = 0; k < 20; ++k) {

@@ -114,7 +114,7 @@ TEST_P(EveryPredictor, BeginsAnewWithoutMemory) {
   EXPECT_EQ(used->forecast(0.5).covariance, fresh->forecast(0.5).covariance);
 }
 
-// Fault 28, A9: a predictor's parameter missing, NaN, 5e-324 or 1e308 -> refused by its name
+// Fault 28, 52: a predictor's parameter missing, NaN, 5e-324 or 1e308 -> refused by its name
 TEST_P(EveryPredictor, RefusesParametersThatAreMissingUnknownOrOutOfBounds) {
   const auto good = values_of(GetParam());
   auto unknown = good;

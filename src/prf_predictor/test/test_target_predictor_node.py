@@ -257,7 +257,7 @@ class TargetPredictorNode(unittest.TestCase):
                          [100.05, 900.1, 900.15])
         self.assertTrue(all(f.status == TargetForecast.LOST for f in self.forecasts[1:]))
 
-    # Fault 41, 42, A3, A4: tf of unrelated frames, stamps at the end of ROS time -> ignored, dropped
+    # Fault 41, 42: tf of unrelated frames, stamps at the end of ROS time -> ignored, dropped
     def test_foreign_tf_and_stamps_at_the_end_of_time_cost_nothing(self):
         self.send_tf(100.0, 100.2)
         for k, stamp in enumerate((100.05, 100.1, 100.15), start=1):

@@ -31,7 +31,7 @@ class TargetPredictorParams(unittest.TestCase):
         ("orientation_gate_speed", -1.0), ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
     ]
 
-    # Fault 28, A9: parameters that are missing, NaN, unknown or out of bounds -> code 2 and the name
+    # Fault 28, 52: parameters that are missing, NaN, unknown or out of bounds -> code 2 and the name
     def test_bad_values_end_the_node_with_code_2_and_their_name(self):
         folder = os.path.join(rospkg.RosPack().get_path(PACKAGE), "config")
         good = {}

@@ -171,7 +171,7 @@ TEST(TargetTracker, KeepsThePositionOfAFlippedPoseAndDropsItsOrientation) {
   EXPECT_LT(prf_core::log_so3(orientation_of(state)).norm(), 1e-3);
 }
 
-// Fault 17: outliers that come beside a target that jumped do not keep it from being re-acquired
+// Fault 17: outliers that come beside a target that jumped -> it is re-acquired all the same
 TEST(TargetTracker, ReacquiresBesideScatteredOutliers) {
   auto tracker = make_tracker();
   rest(tracker, 30);

@@ -53,7 +53,7 @@ TEST(TargetTracker, ReplaysLateImagesSoThatTheOrderOfArrivalDoesNotMatter) {
   EXPECT_TRUE(same(last_in_order, last_shuffled));
 }
 
-// Fault 8, 11, 40, A2: older than all history -> dropped; three in a row that went back -> a new
+// Fault 8, 11, 40: older than all history -> dropped; three in a row that went back -> a new
 // run
 TEST(TargetTracker, DropsImagesOlderThanItsHistoryAndStartsAnewWhenStampsGoBack) {
   auto tracker = make_tracker();
@@ -95,7 +95,7 @@ TEST(TargetTracker, StaysFiniteWithHalfOfTheImagesMissing) {
   EXPECT_LT(worst, 0.05);
 }
 
-// Fault 28, A9: gates of 1e308, times of 5e-324, NaN -> refused by their names
+// Fault 28, 52: gates of 1e308, times of 5e-324, NaN -> refused by their names
 TEST(TrackerParams, NameTheValueThatIsOutOfBounds) {
   struct BadValue {
     std::string name;

@@ -28,7 +28,7 @@ TEST(Conversions, KeepEveryNanosecond) {
   EXPECT_EQ(to_core(ros::Duration(-1, 999'999'999)), prf_core::Duration{-1});
 }
 
-// Fault 42, A4: stamps and sums at the ends of ROS time -> refused or held there, never a throw
+// Fault 42: stamps and sums at the ends of ROS time -> refused or held there, never a throw
 TEST(Conversions, HoldStampsToTheEndsOfRosTime) {
   using prf_core::Stamp;
   EXPECT_EQ(to_ros_time(Stamp{-1}), ros::Time(0, 0));

@@ -36,7 +36,7 @@ TEST(InputHealth, HasNothingToSayOfAnInputThatIsAsExpected) {
   EXPECT_EQ(input.received(), 1000u);
 }
 
-// Fault 46, A12: an input that never comes, or no more -> after 5 s an error says what is expected
+// Fault 46: an input that never comes, or no more -> after 5 s an error says what is expected
 TEST(InputHealth, TellsSilence) {
   InputHealth input(joints(), 100.0);
   const auto never = input.report(105.0);
@@ -61,7 +61,7 @@ TEST(InputHealth, AsksOfEachPresenceWhatItPromises) {
   EXPECT_EQ(once.report(1000.0).level, Level::kOk);
 }
 
-// Fault 46, A12: an input at a tenth of its rate -> a warning with both rates
+// Fault 46: an input at a tenth of its rate -> a warning with both rates
 TEST(InputHealth, TellsARateBelowHalfOfWhatIsExpectedByTheStamps) {
   InputHealth input(joints(), 0.0);
   const double end = play(input, 0.0, 5.0, 10.0);
@@ -92,7 +92,7 @@ TEST(InputHealth, TakesTheRateFromTheStampsAndOneWrongStampForNothing) {
   EXPECT_EQ(input.report(40.0).level, Level::kOk);
 }
 
-// Fault 40, A2: a second publisher of a topic -> a line names both; a successor is no second one
+// Fault 40: a second publisher of a topic -> a line names both; a successor is no second one
 TEST(InputHealth, NamesASecondPublisher) {
   InputHealth input(joints(), 0.0);
   double end = play(input, 0.0, 1.0, 100.0);
@@ -140,7 +140,7 @@ TEST(InputHealth, CountsDropsByReasonAndLogsEachOnceASecond) {
             "joint_states dropped: joint_1 is missing; joint_states dropped: not finite");
 }
 
-// Fault 46, A12: an input whose every message is refused (wrong names) -> an error, as if silent
+// Fault 46: an input whose every message is refused (wrong names) -> an error, as if silent
 TEST(InputHealth, TakesAnInputThatIsAlwaysDroppedForAnError) {
   InputHealth input(joints(), 0.0);
   for (int i = 0; i < 600; ++i) {

@@ -95,7 +95,7 @@ TEST(Run, TurnsARefusalIntoExitCodeTwo) {
   EXPECT_EQ(run([] {}), 0);
 }
 
-// Fault 42, A4: an exception that nothing handles -> one fatal line names it, exit code 3, no abort
+// Fault 42: an exception that nothing handles -> one fatal line names it, exit code 3, no abort
 TEST(Run, TurnsAnyOtherExceptionIntoExitCodeThree) {
   EXPECT_EQ(run([] { throw std::runtime_error("time is out of dual 32-bit range"); }), 3);
   EXPECT_EQ(run([] { throw std::bad_alloc(); }), 3);

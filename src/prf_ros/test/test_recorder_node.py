@@ -75,7 +75,7 @@ class Recorder(unittest.TestCase):
         recorder = self.start(os.path.join(self.bag, "in_no_folder.bag"), "/numbers")
         self.assertEqual(recorder.wait(20.0), 1)
 
-    # Fault 35, 49, A8: the disk is full while the bag is written -> the recorder says so and ends with code 1
+    # Fault 35, 49: the disk is full while the bag is written -> the recorder says so and ends with code 1
     def test_ends_with_its_exit_code_when_the_disk_is_full(self):
         recorder = self.start(self.bag, "/numbers")
         self.wait_until(lambda: self.publisher.get_num_connections() == 1, "no subscriber")

@@ -51,7 +51,7 @@ class RobotStatePublisher(unittest.TestCase):
         self.wait_for(lambda: self.publisher.get_num_connections() > 0, "no subscriber")
         del self.lines[:], self.reports[:], self.stamps[:]
 
-    # Fault 46, A12: joint_states never come -> after 5 s a line and ERROR say what is expected, and of whom
+    # Fault 46: joint_states never come -> after 5 s a line and ERROR say what is expected, and of whom
     def test_1_tells_that_joint_states_do_not_come(self):
         self.says("no message on joint_states for", "sensor_msgs/JointState", "elbow", "at 100 Hz",
                   "publishers: none")
@@ -89,7 +89,7 @@ class RobotStatePublisher(unittest.TestCase):
         self.wait_for(lambda: len(self.stamps) >= 2, "no frames of the new run")
         self.assertEqual(self.stamps, [50.02, 50.03])
 
-    # Fault 46, A12: joint_states at a tenth of their rate -> WARN with both rates
+    # Fault 46: joint_states at a tenth of their rate -> WARN with both rates
     def test_4_tells_a_rate_that_is_too_low(self):
         self.connect()
         for i in range(25):
@@ -97,7 +97,7 @@ class RobotStatePublisher(unittest.TestCase):
         self.says("joint_states comes at 10 Hz", "at 100 Hz")
         self.reports_at(DiagnosticStatus.WARN, "joint_states comes at 10 Hz", "at 100 Hz")
 
-    # Fault 40, A2, A12: a second publisher of joint_states -> named in a line
+    # Fault 40: a second publisher of joint_states -> named in a line
     def test_5_names_a_second_publisher(self):
         self.connect()
         other = subprocess.Popen(

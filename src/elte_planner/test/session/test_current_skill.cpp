@@ -115,7 +115,7 @@ TEST_F(CurrentSkillTest, IsReadWhenTheNumberChangesAndOnlyThen) {
   EXPECT_EQ(skill.select({"third.csv", 4}), std::nullopt);
 }
 
-// Fault A7: one progress names another demonstration or a huge switch number -> costs one plan, the
+// Fault 51: one progress names another demonstration or a huge switch number -> costs one plan, the
 // one before returns with its own
 TEST_F(CurrentSkillTest, ComesBackWithItsPlanAfterARequestByMistake) {
   CurrentSkill skill = first_skill();
@@ -129,7 +129,7 @@ TEST_F(CurrentSkillTest, ComesBackWithItsPlanAfterARequestByMistake) {
   }
 }
 
-// Fault A11: a demonstration outside the configured folders -> refused with their names, the plan
+// Fault 55: a demonstration outside the configured folders -> refused with their names, the plan
 // stays
 TEST_F(CurrentSkillTest, OpensRequestedFilesOnlyInsideTheFolders) {
   std::filesystem::create_directories(folder / "inside");

@@ -27,7 +27,7 @@ TEST(Progress, TakesWhatAnExecutionAsks) {
   EXPECT_NO_THROW(all.validate(50));
 }
 
-// Fault A7: a progress with a forecast stamp far ahead, or an absurd prefix or time -> refused by
+// Fault 51: a progress with a forecast stamp far ahead, or an absurd prefix or time -> refused by
 // name
 TEST(Progress, RefusesWhatWouldWedgeThePlanner) {
   const auto refused = [](const std::string& name, auto&& spoil) {

@@ -117,7 +117,7 @@ TEST(RequestQueue, IgnoresForecastsNamedAgainLater) {
   EXPECT_FALSE(requests[1].new_run);
 }
 
-// Fault 40, A2: one progress or forecast late, early or doubled -> dropped and told; every plan
+// Fault 40: one progress or forecast late, early or doubled -> dropped and told; every plan
 // still comes
 TEST(RequestQueue, LosesNothingToOneMessageOutOfPlace) {
   using prf_core::StampOrder;

@@ -28,7 +28,7 @@ SessionParams params() {
   return result;
 }
 
-// Fault 28, A9: garbage or absurd parameters of the planner -> refused by name, bounded on both
+// Fault 28, 52: garbage or absurd parameters of the planner -> refused by name, bounded on both
 // sides
 TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
   EXPECT_NO_THROW(SkillSession(params(), line()));

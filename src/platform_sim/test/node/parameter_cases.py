@@ -30,7 +30,7 @@ class ParameterTest(unittest.TestCase):
         ("no_such_parameter", 1), ("noise", 1e308), ("light_period", 5e-324), ("distortion", [1e308] * 5),
     ]
 
-    # Fault 28, A9: parameters garbage, NaN or beyond physical bounds -> refused by name, code 2
+    # Fault 28, 52: parameters garbage, NaN or beyond physical bounds -> refused by name, code 2
     def test_refuses_bad_values_by_name(self):
         for name, value in self.CATALOGUE:
             code, output = Simulator(**{name: value}).wait()

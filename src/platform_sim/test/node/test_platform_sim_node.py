@@ -98,7 +98,7 @@ class LockstepTest(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn("joint_command refused", output)
 
-    # Fault 10, 40, 43, A7: responses far ahead, old, doubled, NaN, huge, foreign -> dropped, run goes on
+    # Fault 10, 40, 43, 51: responses far ahead, old, doubled, NaN, huge, foreign -> dropped, run goes on
     def test_goes_on_after_wrong_responses(self):
         target = list(config()["initial_positions"])
         target[6] += 0.1
@@ -148,7 +148,7 @@ class LockstepTest(unittest.TestCase):
         self.assertEqual(peer.stamps_ms("joint_states"), list(range(10, 501, 10)))
         self.assertIn("goes on without execution/progress, joint_command", output)
 
-    # Fault 19, 40, A2: a second publisher of joint_command -> named; its copies are dropped
+    # Fault 19, 40: a second publisher of joint_command -> named; its copies are dropped
     def test_names_a_second_publisher(self):
         with FakeFramework() as peer:
             node = subprocess.Popen(
@@ -198,7 +198,7 @@ class SilenceTest(unittest.TestCase):
             self.assertEqual(code, 3, output)
             self.assertIn(f"{name} is silent", output)
 
-    # Fault 34, 11: silent from the first tick on -> insisted on after the first ticks
+    # Fault 11, 34: silent from the first tick on -> insisted on after the first ticks
     def test_names_the_topic_that_was_never_heard(self):
         with FakeFramework(mute="joint_command") as peer:
             code, output = peer.run(response_timeout=3.0)

@@ -10,7 +10,7 @@
 namespace prf_decision {
 namespace {
 
-// Fault 39, A1: hand blocked on the way -> pause, the cursor waits, back, given up; never done
+// Fault 39: hand blocked on the way -> pause, the cursor waits, back, given up; never done
 TEST(SkillExecutive, PausesGoesBackAndGivesUpWhenTheHandIsBlocked) {
   World world;
   world.until(ExecutionState::kForward, 0.1);
@@ -46,7 +46,7 @@ TEST(SkillExecutive, GivesUpWhenTheHandIsHeldAwayFromTheWholeSkill) {
   EXPECT_FALSE(stopped.setpoint);
 }
 
-// Fault 38, A1: controller dead, failing, or hand unknown during execution -> given up; never done
+// Fault 38: controller dead, failing, or hand unknown during execution -> given up; never done
 TEST(SkillExecutive, IsNeverDoneWithoutAHandThatIsMeasuredThere) {
   const std::vector<std::function<void(World&)>> catalogue{
       [](World& w) { w.control_silent = true; }, [](World& w) { w.control_fails = true; },

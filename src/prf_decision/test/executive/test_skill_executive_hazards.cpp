@@ -11,7 +11,7 @@
 namespace prf_decision {
 namespace {
 
-// Fault 50, A13: planner silent, goal out of reach, target too fast -> pause, go back when it
+// Fault 50: planner silent, goal out of reach, target too fast -> pause, go back when it
 // lasts, go on afterwards
 TEST(SkillExecutive, GoesBackWhenAnyHazardLastsAndForwardOnceItIsOver) {
   const std::vector<std::function<void(World&, bool)>> catalogue{

@@ -45,7 +45,7 @@ TEST(BeliefTracker, ObservesTheFasterOfFilterAndMeasurements) {
   EXPECT_FALSE(observation_of(*arrival(0, filtered, {}, TargetStatus::kCoasting).forecast));
 }
 
-// Fault 43, A5: measured motion of 1e300 -> bounded observation, the belief stays a distribution
+// Fault 43: measured motion of 1e300 -> bounded observation, the belief stays a distribution
 TEST(BeliefTracker, StaysADistributionUnderAbsurdMotion) {
   for (const Eigen::Vector3d& filtered : {Eigen::Vector3d(1e300, 0, 0), Eigen::Vector3d(0, 0, 0)}) {
     BeliefTracker belief(usual_hmm());

@@ -92,7 +92,7 @@ TEST(HmmFilter, RefusesAVelocityThatIsNotFinite) {
   EXPECT_THROW((void)filter.observe(filter.initial_belief(), {{NAN, 0, 0}}), std::invalid_argument);
 }
 
-// Fault 43, A5: velocity of 1e300 -> cut to 20 m/s, counts as reverse; the next calm ones recover
+// Fault 43: velocity of 1e300 -> cut to 20 m/s, counts as reverse; the next calm ones recover
 TEST(HmmFilter, BoundsAnObservationBeforeItIsUsed) {
   const HmmFilter filter(usual_hmm());
   for (const ObservedMotion& absurd :

@@ -78,7 +78,7 @@ class DecisionNode(unittest.TestCase):
         self.assertEqual(runs[0], runs[1])
         self.assertEqual(runs[0], runs[2])
 
-    # Fault 26, A13: planner killed and respawned -> pause within max_wait, then on without a jump
+    # Fault 26: planner killed and respawned -> pause within max_wait, then on without a jump
     def test_pauses_after_max_wait_when_the_planner_is_silent_and_resumes_with_it(self):
         _, world = self.begin_run()
         self.assertTrue(world.play(0, 600))
@@ -113,7 +113,7 @@ class DecisionNode(unittest.TestCase):
         self.assertEqual(first.forecast_stamp, rospy.Time())
         self.assertEqual(first.cursor, 0)
 
-    # Fault 40, A2: ticks, forecasts, plans late, early, doubled, without the arm -> dropped, the run goes on
+    # Fault 40: ticks, forecasts, plans late, early, doubled, without the arm -> dropped, the run goes on
     def test_goes_on_whatever_single_messages_come_late_early_doubled_or_without_the_arm(self):
         start, world = self.begin_run()
         self.assertTrue(world.play(0, 600))

@@ -115,7 +115,7 @@ class SkillActionNode(GoalTest):
                          (GoalStatus.ABORTED, ExecuteSkillResult.TARGET_LOST))
         self.assertIn("no measurement of the target", result.text)
 
-    # Fault 38, A1: arm_controller killed in FORWARD, never restarted -> paused, given up, never SUCCEEDED
+    # Fault 38: arm_controller killed in FORWARD, never restarted -> paused, given up, never SUCCEEDED
     def test_gives_up_when_the_controller_dies(self):
         handle = self.begin()
         self.assertEqual(self.play(0.5).state, ExecutionProgress.FORWARD)

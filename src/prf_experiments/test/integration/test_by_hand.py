@@ -12,7 +12,7 @@ from prf_experiments.run import processes
 
 
 class ByHand(unittest.TestCase):
-    # Fault A10, A12: trial.launch by hand on a busy machine -> starts when connected, ends without "has died"
+    # Fault 46, 53: trial.launch by hand on a busy machine -> starts when connected, ends without "has died"
     def test_starts_when_everything_is_connected_and_ends_in_peace(self):
         busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
         try:

@@ -42,13 +42,13 @@ class FaultyTrials(unittest.TestCase):
                          set(self.verdict["arguments"]["fault"].split(",")))
         return [judge.STATES[state] for state in states[np.flatnonzero(np.diff(states, prepend=-1))]]
 
-    # Fault 40, 41, 42, A2, A3, A4, A7: one old, early or end-of-time message of each kind, unrelated tf -> goes on
+    # Fault 40, 41, 42, 51: one old, early or end-of-time message of each kind, unrelated tf -> goes on
     def test_one_wrong_message_of_any_kind_does_not_begin_a_new_run(self):
         states = self.states(self.trial(ONE_MESSAGE))
         self.assertEqual(states.count("WAITING"), 1, states)
         self.assertEqual(states.count("STOPPED"), 0, states)
 
-    # Fault 38, A1: the controller is killed while the skill is executed -> pause, given up, never DONE
+    # Fault 38: the controller is killed while the skill is executed -> pause, given up, never DONE
     def test_without_the_controller_nothing_is_done(self):
         folder = self.trial("kill/arm_controller@5", "time_limit:=16")
         states = self.states(folder)
@@ -62,7 +62,7 @@ class FaultyTrials(unittest.TestCase):
         self.assertIn("FORWARD", states[2:])
         self.assertLess(self.verdict["invariants"]["largest_joint_step_rad"], 0.0085)
 
-    # Fault 35, 49, A8: the disk is full during a trial -> INVALID with the reason, nothing half written
+    # Fault 35, 49: the disk is full during a trial -> INVALID with the reason, nothing half written
     def test_a_full_disk_makes_the_trial_invalid(self):
         folder = self.trial("disk@2", code=3)
         self.assertEqual(self.verdict["verdict"], "INVALID")

@@ -51,7 +51,7 @@ class FrameworkGraph(unittest.TestCase):
             for node in nodes:
                 self.assertIn(topic, self.heard["/" + node])
 
-    # Fault 46, A12: no sensor says anything -> ERROR in diagnostics names topic, type and rate; the client repeats it
+    # Fault 46: no sensor says anything -> ERROR in diagnostics names topic, type and rate; the client repeats it
     def test_silence_is_an_error_that_names_the_topic(self):
         client = subprocess.Popen(
             ["rosrun", "prf_decision", "execute_skill", "--patience", "12"], text=True,

@@ -51,7 +51,7 @@ class Commands(unittest.TestCase):
             stream.write(content)
         return path
 
-    # Fault A11: bags that are absent, empty, endless or no bags -> one line and a non-zero exit, no page
+    # Fault 54: bags that are absent, empty, endless or no bags -> one line and a non-zero exit, no page
     def test_what_is_no_bag_is_refused_in_one_line(self):
         self.refused(os.path.join(self.folder, "absent.bag"), "absent.bag")
         self.refused("/dev/zero", "is no file")
@@ -63,7 +63,7 @@ class Commands(unittest.TestCase):
         for name in ("judge", "inspect", "report"):
             self.assertIn(self.run_on(name, empty)[0], (1, 3))
 
-    # Fault A11: bags with flipped bytes and cut ends -> a verdict or one line, never a traceback
+    # Fault 54: bags with flipped bytes and cut ends -> a verdict or one line, never a traceback
     def test_damaged_bags_never_end_in_a_traceback(self):
         with open(self.whole, "rb") as stream:
             content = stream.read()
@@ -79,14 +79,14 @@ class Commands(unittest.TestCase):
                 self.assertIn(code, (0, 1, 3, 4))
                 self.assertLess(len(error.splitlines()), 2)
 
-    # Fault A11: a time limit too short for the skill -> refused before anything starts
+    # Fault 54: a time limit too short for the skill -> refused before anything starts
     def test_a_time_limit_too_short_for_the_skill_is_refused(self):
         values = args.parse(["time_limit:=5"], trial_arguments.TRIAL)
         with self.assertRaisesRegex(args.ArgumentError, "takes 11.4[0-9]* s"):
             trial.check_time(values)
         trial.check_time({**values, "time_limit": 12.0})
 
-    # Fault A11: a file name with := or $( -> refused, since ROS would read it as something else
+    # Fault 54: a file name with := or $( -> refused, since ROS would read it as something else
     def test_paths_that_ros_misreads_are_refused(self):
         for word in ("results:=/tmp/a:=b", "demonstration:=/tmp/$(x).csv", "motion:=a:=b.csv"):
             with self.assertRaisesRegex(args.ArgumentError, "without := and|none|FILE"):

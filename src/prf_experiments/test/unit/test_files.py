@@ -35,7 +35,7 @@ class Files(unittest.TestCase):
         return subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True,
                               check=False, timeout=60)
 
-    # Fault 49, A8: the disk is full while a file is written -> the old file stays, no part of a new one
+    # Fault 49: the disk is full while a file is written -> the old file stays, no part of a new one
     def test_on_a_full_disk_the_old_file_stays_whole(self):
         files.write(self.path, "old\n")
         run = self.on_a_full_disk(
@@ -46,7 +46,7 @@ class Files(unittest.TestCase):
         with open(self.path, encoding="utf-8") as stream:
             self.assertEqual(stream.read(), "old\n")
 
-    # Fault 49, A8: the verdict cannot be written -> INVALID with the reason is printed, no file of 0 bytes
+    # Fault 49: the verdict cannot be written -> INVALID with the reason is printed, no file of 0 bytes
     def test_a_verdict_that_cannot_be_written_is_invalid_without_a_traceback(self):
         run = self.on_a_full_disk(EVALUATE, self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -249,7 +249,7 @@ class Evidence(unittest.TestCase):
     def test_ending_early_invalidates_even_when_reached(self):
         self.assertIn("before its time", self.reason(synthetic.make_recording(state="TRACKING")))
 
-    # Fault A11: a run that reaches its own, shorter time limit -> F "not reached", not INVALID
+    # Fault 54: a run that reaches its own, shorter time limit -> F "not reached", not INVALID
     def test_the_trials_own_time_limit_is_a_whole_trial(self):
         data = synthetic.make_recording(20.0, lateral=0.2, state="FORWARD")
         self.assertIn("before its time", self.reason(data))

@@ -19,7 +19,7 @@ class LatencyTest(unittest.TestCase):
         events.add(latency.PLANS, 10 * MS, 0.0155)
         return events
 
-    # Fault 50, A13: chain late under load -> each hop is measured, from image to the command using it
+    # Fault 50: chain late under load -> each hop is measured, from image to the command using it
     def test_hops_are_between_messages_of_one_stamp(self):
         hops = {latency.key(hop): row for hop, row in latency.hops(self.made_up()).items()}
         self.assertEqual(len(hops["joint_states_to_joint_command"]), 4)
