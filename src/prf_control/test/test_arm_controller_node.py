@@ -159,10 +159,10 @@ class ArmControllerNode(unittest.TestCase):
             self.joints.publish(other)
         for words in (('j2s7s300_joint_6, j2s7s300_joint_7', 'has', 'j2s7s300_joint_5'),
                       ('expected', 'j2s7s300_joint_1', 'received', 'panda_joint7')):
+            def told(words=words):
+                return any(all(word in line for word in words) for line in lines)
             with seen:
-                self.assertTrue(seen.wait_for(
-                    lambda: any(all(word in line for word in words) for line in lines), PATIENCE),
-                    '%s not in %s' % (words, lines))
+                self.assertTrue(seen.wait_for(told, PATIENCE), '%s not in %s' % (words, lines))
         self.assertEqual(len(self.commands), 0)
 
     # Fault 1: a measured joint that is not finite -> FAILING, the arm holds
@@ -173,7 +173,8 @@ class ArmControllerNode(unittest.TestCase):
         self.assertIn('j2s7s300_joint_7', status.reason)
         self.assertEqual(list(command.points[0].positions), HOME)
 
-    # Fault 1, 2, 43: a set-point that is not finite, absurd, of a zero quaternion or another frame -> the arm holds, the reason is told
+    # Fault 1, 2, 43: a set-point that is not finite, absurd, of a zero quaternion or another frame ->
+    # the arm holds, the reason is told
     def test_bad_setpoints_are_refused_with_the_reason(self):
         nan = float('nan')
         two = setpoint(self.stamp(7))

@@ -59,7 +59,8 @@ class ArmControllerParams(unittest.TestCase):
             for words in said:
                 self.assertIn(words, fatal[0])
 
-    # Fault 28, 43, 52: a parameter that is not finite, absurd or beyond physics -> exit code 2 with name, value and bound
+    # Fault 28, 43, 52: a parameter that is not finite, absurd or beyond physics ->
+    # exit code 2 with name, value and bound
     def test_every_bad_value_is_refused_with_name_value_and_bound(self):
         self.check_refused([(dict(self.good, **{name: value}), (name, said, bound))
                             for name, value, said, bound in CATALOGUE])

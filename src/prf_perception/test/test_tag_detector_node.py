@@ -190,11 +190,15 @@ class TagDetectorNode(unittest.TestCase):
 
     # Fault 43, 44: image and camera_info absurd or not of one another -> empty array, node goes on
     def test_absurd_images_and_cameras_give_empty_arrays(self):
+        def assign(message, fields):
+            for name, value in fields.items():
+                setattr(message, name, value)
+
         def image(**fields):
-            return lambda image, _: [setattr(image, name, value) for name, value in fields.items()]
+            return lambda image, _: assign(image, fields)
 
         def camera(**fields):
-            return lambda _, info: [setattr(info, name, value) for name, value in fields.items()]
+            return lambda _, info: assign(info, fields)
 
         def intrinsics(index, value):
             def change(_, info):
@@ -202,27 +206,26 @@ class TagDetectorNode(unittest.TestCase):
             return change
 
         def distortion(index, value):
-            coefficients = [value if i == index else 0.0 for i in range(5)]
-            return camera(distortion_model="plumb_bob", D=coefficients)
+            return camera(distortion_model="plumb_bob", D=[value if i == index else 0.0 for i in range(5)])
 
         numbers = (float("nan"), float("inf"), 1e300, -1e9, 1e9)
         changes = [
             image(width=15790321, height=272, step=15790321, data=bytes(16)),
             image(height=HEIGHT + 1), image(step=2 ** 32 - 1), image(step=WIDTH - 1), image(data=b""),
             image(encoding="x" * 10000), image(width=0, height=0, step=0, data=b""),
-            camera(height=1), camera(binning_x=2, binning_y=2),
-            camera(roi=RegionOfInterest(x_offset=8, width=100, height=100)),
-            camera(K=[0.0] * 9), intrinsics(0, 1e-6), intrinsics(1, 0.5), intrinsics(8, 0.0),
+            camera(height=1), camera(binning_x=2, binning_y=2), camera(K=[0.0] * 9), intrinsics(0, 1e-6),
+            camera(roi=RegionOfInterest(x_offset=8, width=100, height=100)), intrinsics(1, 0.5), intrinsics(8, 0.0),
             camera(header=Header(stamp=rospy.Time(), frame_id="another_camera")),
             camera(distortion_model="x" * 10000, D=[0.1] * 100000),
             *(intrinsics(index, value) for index in (0, 2, 4, 5) for value in numbers),
             *(distortion(index, value) for index in range(5) for value in numbers)]
         for count, change in enumerate(changes):
-            self.send(frame(0), change=lambda image, info: (
-                change(image, info), setattr(info.header, "stamp", image.header.stamp)))
-            self.wait(lambda: len(self.answers) > count)
-        self.assertEqual([a.detections for a in self.answer(len(changes)) and self.answers],
-                         [[]] * len(changes))
+            def absurd(image, info, change=change):
+                change(image, info)
+                info.header.stamp = image.header.stamp
+            self.send(frame(0), change=absurd)
+            self.wait(lambda count=count: len(self.answers) > count)
+        self.assertEqual([a.detections for a in self.answer(len(changes)) and self.answers], [[]] * len(changes))
         self.send(frame(0))
         self.assertEqual(len(self.answer(len(changes) + 1).detections), 1)
 

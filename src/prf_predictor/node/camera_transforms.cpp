@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "camera_transforms.hpp"
 
+#include <prf_core/quoted.hpp>
 #include <prf_ros/conversions.hpp>
 
 #include <utility>
@@ -45,11 +46,16 @@ void CameraTransforms::add(const tf2_msgs::TFMessage& message, const std::string
   for (const auto& transform : message.transforms) {
     const std::string child = frame_name(transform.child_frame_id);
     if (child.rfind(ignored_prefix_, 0) == 0) continue;
+    const auto stamp = prf_ros::usable_stamp(transform.header.stamp);
+    if (!stamp) {
+      health_.drop("tf with a stamp near the end of ROS time", "of " + prf_core::quoted(child));
+      continue;
+    }
     const auto& [translation, rotation] =
         std::tie(transform.transform.translation, transform.transform.rotation);
     const FrameChain::Transform sample{frame_name(transform.header.frame_id),
                                        child,
-                                       prf_ros::to_core(transform.header.stamp),
+                                       *stamp,
                                        {prf_ros::to_core(translation), prf_ros::to_core(rotation)}};
     report(sample, chain_.add(sample, is_static), publisher);
   }
@@ -63,8 +69,10 @@ void CameraTransforms::report(const FrameChain::Transform& transform, Effect eff
   const bool is_other = !before.empty() && before != publisher;
   if ((is_other || reason(effect) != nullptr) &&
       chain_.is_between(transform.child, camera_frame_)) {
-    const std::string what = "of " + transform.child + " from " + publisher;
-    if (is_other) health_.warn("a second publisher of tf", what + " and from " + before);
+    const std::string what =
+        "of " + prf_core::quoted(transform.child) + " from " + prf_core::quoted(publisher);
+    if (is_other)
+      health_.warn("a second publisher of tf", what + " and from " + prf_core::quoted(before));
     if (reason(effect) != nullptr) health_.drop(reason(effect), what);
   }
   before = publisher;

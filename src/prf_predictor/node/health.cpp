@@ -25,15 +25,6 @@ void Health::drop(const std::string& reason, const std::string& detail) {
   ROS_WARN_THROTTLE(1.0, "measurement dropped, %s %s", reason.c_str(), detail.c_str());
 }
 
-void Health::report_publisher(const std::string& name) {
-  if (!publisher_.empty() && name != publisher_) {
-    count("changes of publisher");
-    ROS_WARN_THROTTLE(1.0, "tag_detections came from %s and now from %s: two publishers?",
-                      publisher_.c_str(), name.c_str());
-  }
-  publisher_ = name;
-}
-
 void Health::report(const TrackerResult& result) {
   const auto& [arrival, state] = result;
   status_ = state.status;
@@ -59,6 +50,7 @@ void Health::fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const bool is_good = status_ == TargetStatus::kTracking;
   status.summary(is_good ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  kNames[static_cast<int>(status_)]);
+  if (inputs_ != nullptr) inputs_->report(status);
   status.add("waiting for tf", waiting_);
   for (const auto& [name, number] : counts_) status.add(name, number);
   if (!belief_) return;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_ros/input_monitor.hpp>
 
 #include <map>
 #include <string>
@@ -20,10 +21,13 @@ class Health {
   // Counts and warns, throttled.
   void warn(const std::string& what, const std::string& detail);
   void drop(const std::string& reason, const std::string& detail = "");
-  void report_publisher(const std::string& name);  // of each message of tag_detections
   void report(const TrackerResult& result);
   void report_waiting(std::size_t images) { waiting_ = images; }
 
+  // What is wrong with the inputs is part of the diagnostics from then on.
+  void watch(const prf_ros::InputMonitor& inputs) { inputs_ = &inputs; }
+
+  [[nodiscard]] diagnostic_updater::Updater& updater() { return updater_; }
   void publish() { updater_.update(); }
   void publish_now() { updater_.force_update(); }
 
@@ -31,7 +35,7 @@ class Health {
   void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::map<std::string, std::size_t> counts_;
-  std::string publisher_;
+  const prf_ros::InputMonitor* inputs_ = nullptr;
   std::size_t waiting_ = 0;
   TargetStatus status_ = TargetStatus::kNoTarget;
   std::optional<Belief> belief_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <prf_msgs/TagDetectionArray.h>
 #include <prf_msgs/TargetForecast.h>
+#include <prf_msgs/topics.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 #include <prf_ros/conversions.hpp>
+#include <prf_ros/input_monitor.hpp>
 #include <prf_ros/private_parameters.hpp>
 
 #include <deque>
@@ -23,44 +25,55 @@ using prf_ros::to_core;
 using Readiness = FrameChain::Readiness;
 using ArrayPtr = prf_msgs::TagDetectionArrayConstPtr;
 
+constexpr double kImageRate = 30.0;  // Hz
+
 std::string seconds_text(Stamp stamp) { return std::to_string(prf_core::to_seconds(stamp)) + " s"; }
 
 class TargetPredictorNode {
  public:
   TargetPredictorNode(ros::NodeHandle node, const TargetPredictorParams& params)
       : params_(params),
+        inputs_(node, &health_.updater()),
         transforms_(params.planning_frame, params.tag_frame_prefix, from_seconds(params.tf_wait),
                     health_),
         tracker_(params.tracker, params.predictor) {
-    const auto hints = ros::TransportHints().tcpNoDelay();
-    subscribers_ = {
-        node.subscribe("/tf_static", 100, &TargetPredictorNode::on_static_tf, this, hints),
-        node.subscribe("/tf", 1000, &TargetPredictorNode::on_moving_tf, this, hints),
-        node.subscribe("tag_detections", 100, &TargetPredictorNode::on_detections, this, hints)};
+    using prf_msgs::topics::kTagDetections;
+    inputs_.subscribe_events<tf2_msgs::TFMessage>(
+        {prf_msgs::topics::kTfStatic, "tf2_msgs/TFMessage with the fixed frames of the robot", 0,
+         prf_ros::Presence::kOnce, true},
+        100, [this](const TfEvent& event) { on_tf(event, true); });
+    inputs_.subscribe_events<tf2_msgs::TFMessage>(
+        {prf_msgs::topics::kTf,
+         "tf2_msgs/TFMessage with the frames between " + params.planning_frame + " and the camera",
+         0, prf_ros::Presence::kContinuous, true},
+        1000, [this](const TfEvent& event) { on_tf(event, false); });
+    inputs_.subscribe<prf_msgs::TagDetectionArray>(
+        {kTagDetections, "prf_msgs/TagDetectionArray, one for each image", kImageRate}, 100,
+        [this](const ArrayPtr& array) { on_detections(array); });
     // After subscribing: a node that waits for this publisher may start, nothing is missed.
+    health_.watch(inputs_);
     publisher_ = node.advertise<prf_msgs::TargetForecast>("target/forecast", 100);
   }
 
  private:
   using TfEvent = ros::MessageEvent<const tf2_msgs::TFMessage>;
 
-  void on_static_tf(const TfEvent& event) { on_tf(event, true); }
-  void on_moving_tf(const TfEvent& event) { on_tf(event, false); }
   void on_tf(const TfEvent& event, bool is_static) {
     transforms_.add(*event.getConstMessage(), event.getPublisherName(), is_static);
     process_ready_images();
   }
 
-  void on_detections(const ros::MessageEvent<const prf_msgs::TagDetectionArray>& event) {
-    health_.report_publisher(event.getPublisherName());
-    const ArrayPtr array = event.getConstMessage();
-    const Stamp stamp = to_core(array->header.stamp);
-    const Stamp before = clock_.newest().value_or(stamp);
-    const StampOrder order = clock_.observe(stamp);
-    if (order == StampOrder::kBackwardJump) begin_run(before, stamp);
+  void on_detections(const ArrayPtr& array) {
+    const auto stamp = prf_ros::usable_stamp(array->header.stamp);
+    if (!stamp) {
+      inputs_.drop(prf_msgs::topics::kTagDetections, "its stamp is near the end of ROS time");
+      return;
+    }
+    const Stamp before = clock_.newest().value_or(*stamp);
+    const StampOrder order = clock_.observe(*stamp);
+    if (order == StampOrder::kBackwardJump) begin_run(before, *stamp);
     if (order == StampOrder::kFarAhead) {
-      health_.drop("stamp far in the future",
-                   seconds_text(stamp) + ", newest image at " + seconds_text(before));
+      inputs_.drop(prf_msgs::topics::kTagDetections, "its stamp is far ahead");
     } else {
       waiting_.push_back(array);
     }
@@ -136,12 +149,12 @@ class TargetPredictorNode {
 
   TargetPredictorParams params_;
   Health health_;
+  prf_ros::InputMonitor inputs_;
   CameraTransforms transforms_;
   TargetTracker tracker_;
   prf_core::ClockMonitor clock_;  // of the images
   std::deque<ArrayPtr> waiting_;  // for tf
   ros::Publisher publisher_;
-  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace

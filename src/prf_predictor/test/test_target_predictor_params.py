@@ -28,7 +28,8 @@ class TargetPredictorParams(unittest.TestCase):
         ("gate_probability", 1.0), ("gate_probability", 0.1), ("gate_speed", -0.001),
         ("measurement_scale", 0.0), ("reacquire_hits", 1),
         ("measurement_scale", 1e308), ("gate_speed", 1e308), ("position_sigma", 5e-324),
-        ("orientation_gate_speed", -1.0), ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None), ("lost_afer", 2.0),
+        ("orientation_gate_speed", -1.0), ("coast_after", 0.0), ("lost_after", 0.1), ("lost_after", None),
+        ("lost_afer", 2.0),
     ]
 
     # Fault 28, 52: parameters that are missing, NaN, unknown or out of bounds -> code 2 and the name

@@ -10,8 +10,14 @@ from geometry_msgs.msg import Pose
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 
-from prf_msgs.msg import (ControlStatus, ExecuteSkillAction, ExecutionProgress, SkillTrajectory, TargetForecast,
-                          TargetPrediction)
+from prf_msgs.msg import (
+    ControlStatus,
+    ExecuteSkillAction,
+    ExecutionProgress,
+    SkillTrajectory,
+    TargetForecast,
+    TargetPrediction,
+)
 
 FRAME = "j2s7s300_link_base"
 PIPELINE_DELAY = 60  # ms

@@ -43,13 +43,24 @@ class InputMonitor {
   template <typename Message>
   void subscribe(const InputExpectation& expected, std::uint32_t queue,
                  const std::function<void(const boost::shared_ptr<const Message>&)>& callback) {
+    subscribe_events<Message>(expected, queue,
+                              [callback](const ros::MessageEvent<const Message>& event) {
+                                callback(event.getConstMessage());
+                              });
+  }
+
+  // The same for a node that wants to know who has sent a message.
+  template <typename Message>
+  void subscribe_events(
+      const InputExpectation& expected, std::uint32_t queue,
+      const std::function<void(const ros::MessageEvent<const Message>&)>& callback) {
     using Event = ros::MessageEvent<const Message>;
     InputHealth& health = add(expected);
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const Event&>(
         expected.topic, queue, [this, &health, callback](const Event& event) {
           note(health, event.getConnectionHeaderPtr(), stamp_of(*event.getConstMessage()));
-          callback(event.getConstMessage());
+          callback(event);
         });
     options.transport_hints.tcpNoDelay();
     subscribers_.push_back(node_.subscribe(options));

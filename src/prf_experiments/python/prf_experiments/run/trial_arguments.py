@@ -81,7 +81,7 @@ TRIAL = {
 }
 
 
-# The parts of method:=paper. The HMM is of the paper's kind in either method: three states that see
+# The parts of method:=paper. Both methods decide with the same HMM, of the paper's kind: three states that see
 # the velocity of the target.
 PAPER = {"predictor": "paper", "approach": False}
 
