@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "executive_world.hpp"
+#include "executive/executive_world.hpp"
 
 namespace prf_decision {
 namespace {
