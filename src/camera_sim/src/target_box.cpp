@@ -33,7 +33,7 @@ void TargetBox::validate() const {
   prf_core::require_between("target.yaw", yaw, -2.0 * M_PI, 2.0 * M_PI, "rad");
   prf_core::require_between("target.tag_size", tag_size, 0.005, 5.0, "m");
   prf_core::require_between("target.inner_width", inner_width, 0.005, kFarthest, "m");
-  prf_core::require_between("target.inner_depth", inner_depth, 0.005, kFarthest, "m");
+  prf_core::require_between("target.inner_depth", inner_depth, 0.001, kFarthest, "m");
   prf_core::require_between("target.wall_thickness", wall_thickness, 0.0005, 0.5, "m");
   prf_core::require_between("target.post_width", post_width, 0.001, kFarthest, "m");
   const double reach = std::abs(tag_above_box_centre) + 0.5 * tag_size;

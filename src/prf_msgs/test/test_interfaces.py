@@ -43,7 +43,7 @@ class Table(unittest.TestCase):
             "/skill/trajectory": ("skill_planner", ["decision"]),
             "/execution/setpoint": ("decision", ["arm_controller"]),
             "/joint_command": ("arm_controller", []),
-            "/control/status": ("arm_controller", [])})
+            "/control/status": ("arm_controller", ["decision"])})
         self.assertEqual(self.table.sensor_readers, {
             "/joint_states": ["robot_state_publisher", "decision", "arm_controller"],
             "/camera/image_raw": ["tag_detector"],
