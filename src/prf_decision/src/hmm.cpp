@@ -155,7 +155,7 @@ HmmBelief HmmFilter::predict(const HmmBelief& belief) const {
 
 HmmBelief HmmFilter::observe(const HmmBelief& belief, const ObservedMotion& observation) const {
   const Eigen::Vector3d log_density = emission_.log_density(observation);
-  const HmmBelief predicted = predict(belief);
+  HmmBelief predicted = predict(belief);
   if (predicted.was_reset && !belief.was_reset) return predicted;
   // Scaled by the largest joint probability, so that a far outlier cannot underflow all states.
   const Eigen::Vector3d log_joint = predicted.posterior.array().log().matrix() + log_density;

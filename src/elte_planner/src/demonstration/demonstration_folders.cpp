@@ -20,7 +20,7 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
 
 fs::path real_folder(const fs::path& folder) {
   std::error_code error;
-  const fs::path real = fs::canonical(folder, error);
+  fs::path real = fs::canonical(folder, error);
   if (error || !fs::is_directory(real, error)) {
     throw std::invalid_argument("demonstration_folders: '" + folder.string() +
                                 "' is no folder, must be one");
