@@ -20,7 +20,7 @@ from prf_msgs.msg import (
 )
 
 FRAME = "j2s7s300_link_base"
-PIPELINE_DELAY = 60  # ms
+PIPELINE_DELAY = 50  # ms, as in decision.yaml
 NODES = 11
 PATIENCE = 30  # s of real time, for whatever takes no time
 # The arm stands with its hand where the skill begins, 0.12 rad from upright. The tests' launch files give
