@@ -271,7 +271,7 @@ class TargetPredictorNode(unittest.TestCase):
 
     # Fault 19, 40: a second publisher of tag_detections -> named in the diagnostics
     def test_second_publisher_is_reported(self):
-        texts = []
+        texts: list[str] = []
         subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: texts.extend(
             status.message for status in message.status))
 
