@@ -3,24 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <functional>
-#include <limits>
+#include "refusal.hpp"
 
 namespace prf_core {
 namespace {
-
-const double kNan = std::nan("");
-const double kInf = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& check) {
-  try {
-    check();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // Fault 1, 43: absurd, infinite or NaN numbers -> refused by name where they become values
 TEST(Bounds, HoldNumbersOnBothSidesAndNoNan) {

@@ -3,22 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include "refusal.hpp"
 
 namespace prf_core {
 namespace {
-
-const double kNan = std::nan("");
-const double kInf = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& check) {
-  try {
-    check();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Require, SaysNameValueAndBound) {
   EXPECT_EQ(refusal([] { require(true, "nodes", 1, "> 1"); }), "");

@@ -4,39 +4,20 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "elte_planner/skill_session.hpp"
+#include "reach_skill.hpp"
 
 namespace elte_planner {
 namespace {
 
-Demonstration line() {
-  std::vector<TimedPose> samples;
-  for (int i = 0; i <= 10; ++i) {
-    samples.push_back({0.1 * i, {{0.05 * i, 0.0, 0.3}, Eigen::Quaterniond::Identity()}});
-  }
-  return Demonstration(samples, "arm", "hand", Pose{});
-}
-
-SessionParams params() {
-  SessionParams result;
-  result.planner = "elte";
-  result.nodes = 50;
-  result.horizon_max = 2.0;
-  result.confidence = 0.5;
-  result.radius_min = 0.001;
-  result.radius_max = 0.02;
-  return result;
-}
-
 // Fault 28, 52: garbage or absurd parameters of the planner -> refused by name, bounded on both
 // sides
 TEST(SessionParams, RefuseWhatIsOutOfRangeByName) {
-  EXPECT_NO_THROW(SkillSession(params(), line()));
+  EXPECT_NO_THROW(SkillSession(params(), reach()));
   const auto refused = [](const std::string& name, auto&& change) {
     SessionParams bad = params();
     change(bad);
     try {
-      SkillSession session(bad, line());
+      SkillSession session(bad, reach());
       FAIL() << name << " accepted";
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
