@@ -3,7 +3,8 @@
 import contextlib
 import json
 import os
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, BinaryIO
 
 
 def write(path: str, text: str) -> None:
@@ -15,15 +16,25 @@ def write(path: str, text: str) -> None:
         with open(path, "w", encoding="utf-8") as stream:
             stream.write(text)
         return
+    with appearing(path) as stream:
+        stream.write(text.encode("utf-8"))
+
+
+@contextlib.contextmanager
+def appearing(path: str) -> Iterator[BinaryIO]:
+    """A stream into a file that gets its name when all is written and on the disk.
+
+    When the block raises, nothing of the new content and nothing but it is at `path`.
+    """
     path = os.path.realpath(path)  # what a link leads to, not the link
     part = f"{path}.{os.getpid()}.part"
     try:
-        with open(part, "w", encoding="utf-8") as stream:
-            stream.write(text)
+        with open(part, "wb") as stream:
+            yield stream
             stream.flush()
             os.fsync(stream.fileno())
         os.replace(part, path)
-    except OSError:
+    except BaseException:
         with contextlib.suppress(OSError):
             os.unlink(part)
         raise
