@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 import numpy as np
+import rosgraph.xmlrpc
 import roslib.message
 import rospy
 import std_msgs.msg
@@ -17,6 +18,21 @@ NAME = "session_observer"
 SHOWN = ("execution/progress", "ground_truth/tag", "ground_truth/camera")
 TYPES = {"/" + name: roslib.message.get_message_class(topics.TABLE.type_of(name))
          for name in SHOWN}
+
+
+class EndingServer(rosgraph.xmlrpc.ThreadingXMLRPCServer):
+    """The server of rospy's node, whose loop ends when it is closed.
+
+    rospy closes the socket only: the loop then polls what is no socket, and takes a whole processor
+    until the process ends.
+    """
+
+    def server_close(self) -> None:
+        super().server_close()
+        self.shutdown()
+
+
+rosgraph.xmlrpc.ThreadingXMLRPCServer = EndingServer
 
 
 class Observer:
