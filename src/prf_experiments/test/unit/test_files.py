@@ -12,7 +12,7 @@ EVALUATE = FULL + """
 import sys
 from prf_experiments.run import session, trial
 content = trial.evaluate(sys.argv[1], {"arguments": {}}, None, "recorder ended", session.ProgressLine(),
-                         draw=False)
+                         draw="false")
 print(content["verdict"], content["reason"])
 """
 

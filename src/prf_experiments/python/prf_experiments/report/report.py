@@ -10,16 +10,21 @@ from markupsafe import Markup
 from prf_experiments import files, geometry
 from prf_experiments.judge import judge, reaction, target, timeline
 from prf_experiments.record import frames, recording
-from prf_experiments.report import figures, page
+from prf_experiments.report import page
 from prf_experiments.report.page import Section
 from prf_experiments.teach import demonstration
 
 NOTHING = Markup()
+NOT_DRAWN = Markup(
+    "<p>Not drawn: a success among others of its kind. Where its bag was kept, <code>rosrun "
+    "prf_experiments report trial.bag report.html</code> draws pictures and figures; else the "
+    "command above runs the same trial again, bit for bit, and draws them.</p>")
 MEANING = {"S": "success", "P": "partial success", "F": "failure", "INVALID": "no evidence"}
 
 
 def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Markup:
     """The target over time; what was measured is placed with the encoders' transforms."""
+    from prf_experiments.report import figures  # matplotlib takes its time
     camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), recording.PLANNING_FRAME,
                            "camera_optical_frame", data.detection_stamps)
     measured = data.detection_stamps, geometry.compose(camera, data.detections)[:, :3]
@@ -31,6 +36,7 @@ def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Ma
 def draw(bag: str, data: recording.Recording,
          demonstrated: demonstration.Demonstration) -> list[tuple[str, str, Markup]]:
     """The figures of a trial: [(title, text, svg)]."""
+    from prf_experiments.report import figures
     _, base_at, hand_at = target.matched(target.arm_base(data), data.end_effector)
     executed = target.relative_to(base_at, hand_at)
     _, tag_at, hand_at = target.matched(data.tag, data.end_effector)
@@ -107,11 +113,19 @@ def render(content: dict, data: recording.Recording | None,
 def write(path: str, bag: str, data: recording.Recording | None, content: dict,
           demonstrated: demonstration.Demonstration, scene: Markup = NOTHING) -> None:
     """Writes the report of a trial; `data` is None when the recording could not be read."""
-    parameters = ""
-    with contextlib.suppress(OSError), \
-            open(os.path.join(os.path.dirname(bag), "parameters.yaml"), encoding="utf-8") as stream:
-        parameters = stream.read()
     drawings = []
     if data is not None and content["verdict"] != "INVALID":
         drawings = draw(bag, data, demonstrated)
-    files.write(path, render(content, data, drawings, scene, parameters))
+    files.write(path, render(content, data, drawings, scene, _parameters(bag)))
+
+
+def write_brief(path: str, bag: str, data: recording.Recording | None, content: dict) -> None:
+    """Writes the report of a trial in words and numbers, without pictures and figures."""
+    files.write(path, render(content, data, [], NOT_DRAWN, _parameters(bag)))
+
+
+def _parameters(bag):
+    with contextlib.suppress(OSError), \
+            open(os.path.join(os.path.dirname(bag), "parameters.yaml"), encoding="utf-8") as stream:
+        return stream.read()
+    return ""

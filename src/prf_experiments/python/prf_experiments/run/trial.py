@@ -68,17 +68,23 @@ def checked(data: recording.Recording | None, folder: str) -> dict:
             "reaction": reaction.times(data)}
 
 
-def _draw_report(folder, data, content):
-    from prf_experiments.report import pictures, report  # matplotlib takes its time
+def _draw_report(folder, data, content, brief):
+    from prf_experiments.report import pictures, report  # what they import takes its time
     bag = os.path.join(folder, "trial.bag")
+    if brief and content["verdict"] == "S":
+        report.write_brief(os.path.join(folder, "report.html"), bag, data, content)
+        return
     scene = pictures.of(bag, data, content["figures"]) if content["figures"] else report.NOTHING
     report.write(os.path.join(folder, "report.html"), bag, data, content,
                  demonstration.read(skill(content["arguments"])), scene)
 
 
 def evaluate(folder: str, description: dict, wall: float | None, failure: str,
-             progress: session.ProgressLine, draw: bool = True) -> dict:
-    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds."""
+             progress: session.ProgressLine, draw: str = "true") -> dict:
+    """Judges the bag and writes verdict.json and report.html. Returns what verdict.json holds.
+
+    `draw` is the trial's argument `report`.
+    """
     bag, data = os.path.join(folder, "trial.bag"), None
     verdict = judge.invalid(failure)
     if not failure:
@@ -92,9 +98,9 @@ def evaluate(folder: str, description: dict, wall: float | None, failure: str,
     content = {**verdict.as_json(), **checked(data, folder), **description, "wall_time_s": wall,
                "simulated_per_real_time": simulated / wall if simulated and wall else None}
     try:  # the verdict comes last: where there is one, everything is there
-        if draw:
+        if draw != "false":
             progress.show("drawing the report", always=True)
-            _draw_report(folder, data, content)
+            _draw_report(folder, data, content, draw == "brief")
         files.write_json(os.path.join(folder, "verdict.json"), content)
     except OSError as error:
         lost = judge.invalid(f"the results cannot be written: {error}"

@@ -76,7 +76,8 @@ TRIAL = {
     **LAUNCHED, **RESULTS,
     "isolated": Argument(False, **boolean(),
                          meaning="true: in a network namespace of its own, which nobody can reach"),
-    "report": Argument(True, **boolean(), meaning="false: draw no report"),
+    "report": Argument("true", **choice("true", "brief", "false"),
+                       meaning="brief: words and numbers alone when the verdict is S; false: none"),
     "keep_bag": Argument(True, **boolean(), meaning="false: delete the bag at the end"),
 }
 

@@ -70,6 +70,19 @@ def locked(folder: str) -> Iterator[None]:
         yield
 
 
+def with_reports(trials: list[dict]) -> list[dict]:
+    """The trials with what is drawn of them: the first of each cell always, of the others those that
+    are not S. A cell's trials differ in their seed."""
+    cells: list[dict] = []
+    found = []
+    for values in trials:
+        shared = {name: value for name, value in values.items() if name != "seed"}
+        found.append({**values, "report": "brief" if shared in cells else "true"})
+        if shared not in cells:
+            cells.append(shared)
+    return found
+
+
 def begin(folder: str, versions: dict, any_version: bool) -> None:
     """Notes what makes the sweep; refuses to mix trials of several versions."""
     path = os.path.join(folder, "sweep.json")
@@ -168,8 +181,9 @@ def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
                    if (content := finished(folder, values)) is not None}
         waiting = [row for row in range(len(trials)) if row not in results]
         shown = board(len(trials), len(trials) - len(waiting))
+        drawn = with_reports(trials)
         with executor(options) as pool:
-            futures = {pool.submit(trial_runner.execute, trials[row],
+            futures = {pool.submit(trial_runner.execute, drawn[row],
                                    trial_folder(folder, trials[row]), options.keep_bags,
                                    attempt): row for row in waiting}
             try:

@@ -55,7 +55,7 @@ def stop_running() -> None:
 def run_process(values: dict, folder: str) -> dict:
     """One attempt by `run_trial`. Returns what verdict.json holds, or None if there is none."""
     words = [sys.executable, "-m", "prf_experiments.run.trial", "--into", folder,
-             *trial_arguments.words(values)]
+             *trial_arguments.words(values), f"report:={values.get('report', 'true')}"]
     with _lock:
         if _stopping.is_set():
             raise Stopped

@@ -47,16 +47,25 @@ class Balance(HTMLParser):
 
 
 class Report(unittest.TestCase):
-    def write(self, data, verdict=None):
+    def write(self, data, verdict=None, brief=False):
         with tempfile.TemporaryDirectory() as folder:
             bag, out = os.path.join(folder, "trial.bag"), os.path.join(folder, "report.html")
             synthetic.write_bag(bag, data)
             read = recording.read(bag)
             content = {**(verdict or judge.judge(read)).as_json(), "command": "run <this> & that",
                        "arguments": {"seed": 1}, "versions": {"python": "3"}, "wall_time_s": 4.2}
-            report.write(out, bag, read, content, SKILL)
+            if brief:
+                report.write_brief(out, bag, read, content)
+            else:
+                report.write(out, bag, read, content, SKILL)
             with open(out, encoding="utf-8") as stream:
                 return stream.read()
+
+    def test_in_brief_has_words_and_numbers_and_says_how_it_is_drawn(self):
+        text = self.write(synthetic.make_recording(3.0), brief=True)
+        self.assertEqual((text.count("<svg"), text.count("<img")), (0, 0))
+        for part in ("run &lt;this&gt; &amp; that", "Timeline", "Figures of merit", "Not drawn"):
+            self.assertIn(part, text)
 
     def assert_sound(self, text):
         parser = Balance()

@@ -64,6 +64,16 @@ class Sweep(unittest.TestCase):
         self.assertEqual(sorted(attempt.asked), self.folders())
         self.assertEqual(len(self.folders()), 4)
 
+    def test_draws_one_trial_of_each_cell_whatever_its_verdict(self):
+        drawn = {}
+
+        def attempt(values, folder):
+            drawn[values["motion"], values["seed"]] = values["report"]
+            return Attempts()(values, folder)
+        self.run_sweep(attempt, seeds=(3, 1, 2))
+        self.assertEqual(drawn, {(motion, seed): "true" if seed == 3 else "brief"
+                                 for motion in ("none", "heavy") for seed in (1, 2, 3)})
+
     def test_goes_on_where_it_was_interrupted(self):
         self.run_sweep(Attempts(), seeds=(1,))
         half = sweep.trial_folder(self.folder, trials(2)[0]) + ".part"
