@@ -33,7 +33,7 @@ around = elte_planner.avoid(zeta, obstacles, 0.02, constraints[:1], zeta[:execut
 print(around.status, "clearance", around.clearance)
 assert around.clearance >= 0.02 - 1e-12
 
-# %% The rivals, on the same demonstration.
-for planner in elte_planner.planner_names():
-    y, status, slack = elte_planner.plan(planner, zeta, zeta, executed, goal)
-    print(f"{planner:12} {status:8} end missed by {slack:.3g}")
+# %% The rivals, on the same demonstration, and all of the above behind one class.
+for name in elte_planner.planner_names():
+    rival = elte_planner.Planner(name).fit(zeta).plan(goal, frozen=executed)
+    print(f"{name:12} {rival.status:8} end missed by {rival.end_error:.3g}")

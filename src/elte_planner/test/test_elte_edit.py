@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -23,7 +24,7 @@ def arc(nodes=40):
 class Figures(unittest.TestCase):
     def run_command(self, *arguments):
         return subprocess.run(
-            ["/usr/bin/python3", os.path.join(HERE, "..", "bench", "paper_figures"), *arguments], text=True,
+            [sys.executable, os.path.join(HERE, "..", "bench", "paper_figures"), *arguments], text=True,
             timeout=120, capture_output=True, check=False)
 
     def test_are_drawn_and_their_numbers_say_what_the_paper_claims(self):
@@ -61,7 +62,7 @@ class Command(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def run_command(self, *arguments):
-        return subprocess.run(["/usr/bin/python3", COMMAND, *arguments], text=True, timeout=60,
+        return subprocess.run([sys.executable, COMMAND, *arguments], text=True, timeout=60,
                               capture_output=True, check=False)
 
     def test_writes_plan_and_plot(self):
@@ -144,7 +145,7 @@ class Command(unittest.TestCase):
         self.refuse("either")
         self.refuse("--clearance belongs", DEMONSTRATION, "--clearance", "0.1")
         self.refuse("clearance = 0", DEMONSTRATION, "--sphere", *"1111", "--clearance", "0")
-        self.refuse("executed is 1", DEMONSTRATION, "--sphere", *"1111", "--clearance", "1",
+        self.refuse("frozen is 1", DEMONSTRATION, "--sphere", *"1111", "--clearance", "1",
                     "--executed", "1")
         self.refuse("tolerance is -1", DEMONSTRATION, "--thin", "-1")
         self.refuse("within [3, 41]", DEMONSTRATION, "--thin-to", "42")

@@ -1,4 +1,47 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elastic Laplacian trajectory editing: numpy in, numpy out. Rows are nodes."""
-from elte_planner._core import *  # noqa: F403
-from elte_planner.bag import load_bag  # noqa: F401
+"""Elastic Laplacian trajectory editing (ELTE) and its rivals: numpy in, numpy out. Rows are nodes.
+
+`Planner` is what most need: fit demonstrations, plan to a goal. Below it are the solvers with all their constraints
+(`solve`, `avoid`, `EndpointSolver`), demonstrations with orientations and target (`Demonstration`,
+`load_demonstration`), `confidence_radius`, and the modules `plotting` and `measures`.
+"""
+from pkgutil import extend_path
+
+# Beside a sourced ROS workspace, whose compiled part may be of another Python, that of this one is found.
+__path__ = extend_path(__path__, __name__)
+
+from elte_planner._core import (
+    AvoidanceSolution,
+    Demonstration,
+    EndpointSolver,
+    Obstacle,
+    PlanResult,
+    PointConstraint,
+    SkillPlanner,
+    Solution,
+    avoid,
+    ball,
+    blend_orientations,
+    box,
+    box_obstacle,
+    combine,
+    confidence_radius,
+    disc_obstacle,
+    equality,
+    half_space,
+    load_demonstration,
+    planner_names,
+    polyline_clearance,
+    save_demonstration,
+    shape_loss,
+    solve,
+)
+from elte_planner.bag import load_bag
+from elte_planner.planner import Plan, Planner, Session, Via
+
+__all__ = [
+    "AvoidanceSolution", "Demonstration", "EndpointSolver", "Obstacle", "Plan", "PlanResult", "Planner",
+    "PointConstraint", "Session", "SkillPlanner", "Solution", "Via", "avoid", "ball", "blend_orientations", "box",
+    "box_obstacle", "combine", "confidence_radius", "disc_obstacle", "equality", "half_space", "load_bag",
+    "load_demonstration", "planner_names", "polyline_clearance", "save_demonstration", "shape_loss", "solve",
+]

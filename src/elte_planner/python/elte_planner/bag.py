@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Demonstrations from bags. Needs rosbag only when a bag is read."""
+"""Demonstrations from bags. Needs rosbag and scipy, and only when a bag is read."""
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from elte_planner._core import Demonstration
 
@@ -30,6 +29,7 @@ def _expect(messages, kind, path, topic):
 
 def _target_of_plan(last, goal_in_target):
     """Target T with T * goal_in_target = last, all x y z qx qy qz qw."""
+    from scipy.spatial.transform import Rotation
     turn = Rotation.from_quat(last[3:]) * Rotation.from_quat(goal_in_target[3:]).inv()
     quaternion = turn.as_quat()  # of either sign; that with w >= 0 is taken
     return np.concatenate([last[:3] - turn.apply(goal_in_target[:3]),
