@@ -11,7 +11,10 @@ def _row(pose):
 
 
 def _messages(path, topic):
-    import rosbag
+    try:
+        import rosbag
+    except ImportError as error:
+        raise ImportError(f"{path}: a bag is read with rosbag of ROS 1, which this Python has not ({error})") from None
     try:
         with rosbag.Bag(path) as bag:
             found = [message for _, message, _ in bag.read_messages(topics=["/" + topic.lstrip("/")])]
