@@ -89,15 +89,6 @@ CameraLens::CameraLens(const PinholeCamera& camera)
   }
 }
 
-CameraLens::Ray CameraLens::ray(int x, int y) const {
-  if (rays_.empty()) {
-    return {{(x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy},
-            Eigen::Vector2d(1.0 / camera_.fx, 1.0 / camera_.fy).asDiagonal()};
-  }
-  const auto& stored = rays_[static_cast<std::size_t>(y * camera_.width + x)];
-  return {stored.col(0).cast<double>(), stored.rightCols<2>().cast<double>()};
-}
-
 Polygon2d CameraLens::outline(std::vector<Eigen::Vector3d> corners) const {
   corners = clipped(corners, Eigen::Vector3d::UnitZ(), kNearPlane);
   for (const Eigen::Vector3d& plane : view_planes_) {

@@ -22,7 +22,14 @@ class CameraLens {
     Eigen::Vector2d normalised;
     Eigen::Matrix2d derivative;
   };
-  [[nodiscard]] Ray ray(int x, int y) const;
+  [[nodiscard]] Ray ray(int x, int y) const {
+    if (rays_.empty()) {
+      return {{(x - camera_.cx) / camera_.fx, (y - camera_.cy) / camera_.fy},
+              Eigen::Vector2d(1.0 / camera_.fx, 1.0 / camera_.fy).asDiagonal()};
+    }
+    const auto& stored = rays_[static_cast<std::size_t>(y * camera_.width + x)];
+    return {stored.col(0).cast<double>(), stored.rightCols<2>().cast<double>()};
+  }
 
   // Outline in the image of a plane, convex polygon of the optical frame, in coordinates that
   // start at the first pixel's corner; empty where it is out of view.

@@ -4,6 +4,7 @@
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
 
+#include <array>
 #include <cstdlib>
 #include <utility>
 
@@ -17,6 +18,45 @@ constexpr unsigned char kPaper = 225;
 // about 1/55 pixel whatever its slope.
 constexpr int kSamples = 55;
 constexpr int kLatticeStep = 34;
+
+struct Lattice {
+  std::array<double, kSamples> dx{}, dy{};  // from the pixel's corner, px
+};
+
+constexpr Lattice make_lattice() {
+  Lattice lattice;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    lattice.dx[i] = (static_cast<double>(i) + 0.5) / kSamples;
+    lattice.dy[i] = (static_cast<double>(i * kLatticeStep % kSamples) + 0.5) / kSamples;
+  }
+  return lattice;
+}
+
+constexpr Lattice kLattice = make_lattice();
+
+// Samples whose coordinate origin + a dx + b dy is at least `border`.
+int count_beyond(double border, double origin, double a, double b) {
+  int count = 0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    count += static_cast<int>(origin + (a * kLattice.dx[i] + b * kLattice.dy[i]) >= border);
+  }
+  return count;
+}
+
+// Samples that are beyond both borders.
+int count_beyond(const Eigen::Vector2d& border, const Eigen::Vector2d& origin,
+                 const Eigen::Matrix2d& d) {
+  int count = 0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double dx = kLattice.dx[i], dy = kLattice.dy[i];
+    const bool right = origin.x() + (d(0, 0) * dx + d(0, 1) * dy) >= border.x();
+    const bool below = origin.y() + (d(1, 0) * dx + d(1, 1) * dy) >= border.y();
+    count += static_cast<int>(right) & static_cast<int>(below);
+  }
+  return count;
+}
+
+unsigned char mean(int sum) { return static_cast<unsigned char>((sum + kSamples / 2) / kSamples); }
 
 }  // namespace
 
@@ -40,14 +80,31 @@ unsigned char GridTexture::mean_over_pixel(const Eigen::Vector2d& cell,
   if (uniform) return grey;
 
   const Eigen::Vector2d origin = cell - derivative * Eigen::Vector2d(0.5, 0.5);
+  if (u_last - u_first > 1 || v_last - v_first > 1) return mean_of_many(origin, derivative);
+  // Two or four cells: how many samples fall into each.
+  const auto beyond = [&](int axis, int first, int last) {
+    return first == last
+               ? 0
+               : count_beyond(last, origin[axis], derivative(axis, 0), derivative(axis, 1));
+  };
+  const int right = beyond(0, u_first, u_last), below = beyond(1, v_first, v_last);
+  const int both = right == 0 || below == 0
+                       ? 0
+                       : count_beyond(Eigen::Vector2d(u_last, v_last), origin, derivative);
+  return mean((kSamples - right - below + both) * at(u_first, v_first) +
+              (right - both) * at(u_last, v_first) + (below - both) * at(u_first, v_last) +
+              both * at(u_last, v_last));
+}
+
+unsigned char GridTexture::mean_of_many(const Eigen::Vector2d& origin,
+                                        const Eigen::Matrix2d& derivative) const {
   int sum = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    const double dx = (i + 0.5) / kSamples;
-    const double dy = (i * kLatticeStep % kSamples + 0.5) / kSamples;
-    const Eigen::Vector2d sample = origin + derivative * Eigen::Vector2d(dx, dy);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const Eigen::Vector2d sample =
+        origin + derivative * Eigen::Vector2d(kLattice.dx[i], kLattice.dy[i]);
     sum += at(index(sample.x(), columns_), index(sample.y(), rows_));
   }
-  return static_cast<unsigned char>((sum + kSamples / 2) / kSamples);
+  return mean(sum);
 }
 
 GridTexture tag_texture() {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace camera_sim {
@@ -20,6 +21,7 @@ class PolygonRaster {
       : width_(width),
         height_(height),
         lines_(static_cast<std::size_t>(height * kSubRows)),
+        sums_(static_cast<std::size_t>(width)),
         coverage_(static_cast<std::size_t>(width)) {}
 
   // Calls row(y, begin, end, coverage) for runs of pixels touched by the polygon; coverage is null
@@ -79,7 +81,11 @@ class PolygonRaster {
       simple = simple && crossed.count == 2;
       if (crossed.count == 0) continue;
       const auto end = crossed.x.begin() + static_cast<std::ptrdiff_t>(crossed.count);
-      std::sort(crossed.x.begin(), end);
+      if (crossed.count > 2) {
+        std::sort(crossed.x.begin(), end);
+      } else if (crossed.x[1] < crossed.x[0]) {
+        std::swap(crossed.x[0], crossed.x[1]);
+      }
       outer_begin = std::min(outer_begin, crossed.x[0]);
       outer_end = std::max(outer_end, *(end - 1));
       inner_begin = std::max(inner_begin, crossed.x[0]);
@@ -101,22 +107,33 @@ class PolygonRaster {
   template <class Row>
   void fill_partly(int y, int from, int to, Row&& row) {
     if (from >= to) return;
-    for (int x = from; x < to; ++x) {
-      double sum = 0.0;
-      for (int k = 0; k < kSubRows; ++k) {
-        const Line& crossed = line(y * kSubRows + k);
-        for (std::size_t i = 0; i < crossed.count; i += 2) {
-          sum += std::max(
-              0.0, std::min<double>(crossed.x[i + 1], x + 1) - std::max<double>(crossed.x[i], x));
-        }
+    std::fill(sums_.begin() + from, sums_.begin() + to, 0.0);
+    for (int k = 0; k < kSubRows; ++k) {
+      const Line& crossed = line(y * kSubRows + k);
+      for (std::size_t i = 0; i < crossed.count; i += 2) {
+        add_length(crossed.x[i], crossed.x[i + 1], from, to);
       }
-      coverage_[static_cast<std::size_t>(x)] = static_cast<float>(sum / kSubRows);
+    }
+    for (int x = from; x < to; ++x) {
+      const auto pixel = static_cast<std::size_t>(x);
+      coverage_[pixel] = static_cast<float>(sums_[pixel] / kSubRows);
     }
     row(y, from, to, static_cast<const float*>(coverage_.data() + from));
   }
 
+  // What the piece from `left` to `right` of a line covers of each of the pixels `from` to `to`.
+  void add_length(double left, double right, int from, int to) {
+    const int begin = std::max(from, static_cast<int>(left));
+    const int end = std::min(to, static_cast<int>(std::ceil(right)));
+    double* sums = sums_.data();
+    for (int x = begin; x < end; ++x) {
+      sums[x] += std::max(0.0, std::min<double>(right, x + 1) - std::max<double>(left, x));
+    }
+  }
+
   int width_, height_;
   std::vector<Line> lines_;
+  std::vector<double> sums_;
   std::vector<float> coverage_;
 };
 

@@ -77,7 +77,6 @@ Simulation::End Simulation::run() {
   while (!at_end()) {
     simulate_tick();
     publish_tick();
-    for (Image& image : images_) render(image);  // while the framework is busy
     end_reason = wait_for_responses();
     if (end_reason != End::kEnded) break;
     apply_responses();
@@ -152,28 +151,38 @@ void Simulation::simulate_tick() {
 
 // joint_states comes last: the framework responds to it.
 void Simulation::publish_tick() {
-  while (std::optional<camera_sim::Frame> frame = schedule_.take_exposed())
+  while (std::optional<camera_sim::Frame> frame = schedule_.take_exposed()) {
     images_.push_back({*frame, {}});
-  publishers_.publish_clock(now_ms_);
-  while (!images_.empty() && schedule_.is_due(images_.front().frame, now_ms_)) {
-    Image& image = images_.front();
-    render(image);
-    if (!image.pixels.empty()) {
-      publishers_.publish_image(image.frame.stamp_ms, image.pixels, camera_.optics());
-      responses_.lockstep().published_image(stamp_at(image.frame.stamp_ms));
-    }
-    images_.pop_front();
+    begin_to_draw(images_.back());
   }
+  publishers_.publish_clock(now_ms_);
+  publish_due_images();
   publishers_.publish_ground_truth(now_ms_, world_);
   publishers_.publish_joint_states(now_ms_, world_);
   responses_.lockstep().published_joint_states(stamp_at(now_ms_));
 }
 
-void Simulation::render(Image& image) {
-  if (!image.pixels.empty() || !publishers_.image_is_wanted()) return;
-  const ros::WallTime begin = ros::WallTime::now();
-  image.pixels = camera_.image(image.frame);
-  rendering_ += ros::WallTime::now() - begin;
+void Simulation::publish_due_images() {
+  while (!images_.empty() && schedule_.is_due(images_.front().frame, now_ms_)) {
+    Image& image = images_.front();
+    begin_to_draw(image);
+    if (image.picture.valid()) {
+      const Picture picture = image.picture.get();
+      rendering_ += picture.took;
+      publishers_.publish_image(image.frame.stamp_ms, picture.pixels, camera_.optics());
+      responses_.lockstep().published_image(stamp_at(image.frame.stamp_ms));
+    }
+    images_.pop_front();
+  }
+}
+
+void Simulation::begin_to_draw(Image& image) {
+  if (image.picture.valid() || !publishers_.image_is_wanted()) return;
+  image.picture = std::async(std::launch::async, [this, &frame = image.frame] {
+    const ros::WallTime begin = ros::WallTime::now();
+    cv::Mat pixels = camera_.image(frame);
+    return Picture{std::move(pixels), ros::WallTime::now() - begin};
+  });
 }
 
 Simulation::End Simulation::wait_for_responses() {

@@ -7,6 +7,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <deque>
+#include <future>
 #include <optional>
 #include <prf_ros/wall_throttle.hpp>
 #include <string>
@@ -31,9 +32,14 @@ class Simulation {
   End run();
 
  private:
+  struct Picture {
+    cv::Mat pixels;
+    ros::WallDuration took;
+  };
+  // Drawn in a thread of its own while physics and framework go on.
   struct Image {
     camera_sim::Frame frame;
-    cv::Mat pixels;  // empty when nobody wanted it
+    std::future<Picture> picture;  // not valid while nobody wants it
   };
 
   bool on_start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -42,7 +48,8 @@ class Simulation {
   End wait_for_responses();
   void simulate_tick();
   void publish_tick();
-  void render(Image& image);
+  void publish_due_images();
+  void begin_to_draw(Image& image);
   void go_on(double patience);
   void apply_responses();
   void keep_pace();

@@ -29,6 +29,9 @@ class GridTexture {
                                               const Eigen::Matrix2d& derivative) const;
 
  private:
+  // Of a pixel that covers more than 2 x 2 cells, with its corner at `origin`.
+  [[nodiscard]] unsigned char mean_of_many(const Eigen::Vector2d& origin,
+                                           const Eigen::Matrix2d& derivative) const;
   [[nodiscard]] static int index(double coordinate, int count) {
     return std::clamp(static_cast<int>(coordinate), 0, count - 1);
   }
