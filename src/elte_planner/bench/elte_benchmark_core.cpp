@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of our solvers and their error against 113-bit arithmetic, as JSON for elte_benchmark.
+// Times of our solvers and their error against 113-bit arithmetic, as JSON for elte_benchmark. The
+// argument is recorded_requests.json.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "elte_planner/edit_problem.hpp"
 #include "elte_planner/endpoint_solver.hpp"
+#include "elte_planner/skill_planner.hpp"
+#include "elte_planner/skill_session.hpp"
 #include "quad_reference.hpp"
 #include "random_problems.hpp"
 
@@ -85,14 +90,144 @@ nlohmann::json obstacle() {
   return row("elte, 2-D obstacle balls (KKT residual)", kNodes, 0.0, time, solution.kkt_residual);
 }
 
+// Each solve timed alone.
+struct Times {
+  template <typename Solve>
+  void add(Solve&& solve) {
+    const auto start = std::chrono::steady_clock::now();
+    solve();
+    microseconds.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+            .count());
+  }
+
+  nlohmann::json row(const char* solver, double error) {
+    std::sort(microseconds.begin(), microseconds.end());
+    const std::size_t count = microseconds.size();
+    nlohmann::json result = ::row(solver, 50, 0.02, microseconds[count / 2], error);
+    result["p99_us"] = microseconds[count * 99 / 100];
+    return result;
+  }
+
+  std::vector<double> microseconds;
+};
+
+Eigen::MatrixXd matrix(const nlohmann::json& rows) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), 3);
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    for (Eigen::Index j = 0; j < 3; ++j) result(k, j) = rows.at(k).at(j).get<double>();
+  }
+  return result;
+}
+
+PlanRequest request_from(const nlohmann::json& recorded, const Eigen::MatrixXd& zeta) {
+  PlanRequest request;
+  request.frozen = recorded.at("frozen").get<Eigen::Index>();
+  request.previous = zeta;
+  request.previous.middleRows(request.frozen - 2, 2) = matrix(recorded.at("fixed"));
+  for (const auto& entry : recorded.at("balls")) {
+    const Eigen::Vector3d centre(entry.at(1), entry.at(2), entry.at(3));
+    request.approach.push_back({entry.at(0), centre, entry.at(4)});
+  }
+  request.goal = request.approach.back().centre;
+  request.radius = request.approach.back().radius;
+  request.approach.pop_back();
+  return request;
+}
+
+constexpr int kRepetitions = 100;
+
+// What skill_planner_node solves: a ball at every node of the approach. Cold, every time.
+void node_problems(const nlohmann::json& recorded, nlohmann::json& rows) {
+  const Eigen::MatrixXd zeta = matrix(recorded.at("zeta"));
+  std::vector<PlanRequest> requests;
+  for (const auto& entry : recorded.at("requests")) requests.push_back(request_from(entry, zeta));
+  const struct {
+    const char* name;
+    double max_step;
+  } cases[] = {{"elte, node's problem (KKT residual)", SolveLimits{}.max_step},
+               {"elte, node's problem, steps <= 0.08 m", 0.08}};
+  for (const auto& [name, max_step] : cases) {
+    const auto planner = make_skill_planner("elte", zeta, {}, {max_step, 2000});
+    Times times;
+    double residual = 0.0;
+    int failed = 0;
+    for (int i = 0; i < kRepetitions; ++i) {
+      for (const PlanRequest& request : requests) {
+        PlanResult result;
+        times.add([&] { result = planner->plan(request); });
+        failed += result.status == PlanStatus::kFailed ? 1 : 0;
+        residual = std::max(residual, result.kkt_residual);
+      }
+    }
+    std::fprintf(stderr, "%s: %d of %zu have no plan\n", name, failed / kRepetitions,
+                 requests.size());
+    rows.push_back(times.row(name, residual));
+  }
+}
+
+// From forecast and progress to the poses, for a forecast whose deviation grows like that of a
+// stepping robot, at every cursor.
+nlohmann::json whole_plan(const nlohmann::json& recorded) {
+  const Eigen::MatrixXd zeta = matrix(recorded.at("zeta"));
+  const prf_core::Stamp stamp = std::chrono::seconds(10);
+  std::vector<TimedPose> samples;
+  for (Eigen::Index k = 0; k < zeta.rows(); ++k) {
+    samples.push_back(
+        {0.1 * static_cast<double>(k), {zeta.row(k).transpose(), Eigen::Quaterniond::Identity()}});
+  }
+  const Pose target = {zeta.row(zeta.rows() - 1).transpose(), Eigen::Quaterniond::Identity()};
+  SessionParams params;
+  params.planner = "elte";
+  params.nodes = static_cast<int>(zeta.rows());
+  params.horizon_max = 2.0;
+  params.confidence = 0.5;
+  params.radius_max = 0.02;
+  params.approach_length = 0.2;
+  SkillSession session(params, Demonstration(samples, "arm", "hand", target));
+  Times times;
+  for (int i = 0; i < kRepetitions; ++i) {
+    session.reset();
+    for (Eigen::Index frozen = 2; frozen < zeta.rows(); ++frozen) {
+      prf_core::TargetForecast forecast;
+      forecast.stamp = stamp;
+      forecast.status = prf_core::TargetStatus::kTracking;
+      for (int n = 0; n <= 40; ++n) {
+        const double horizon = 0.05 * n;
+        prf_core::TargetPrediction prediction;
+        prediction.horizon = prf_core::from_seconds(horizon);
+        prediction.target.pose = target;
+        prediction.target.pose.position.y() +=
+            0.03 * std::sin(3.0 * horizon + 0.2 * static_cast<double>(frozen));
+        const Eigen::Vector3d deviation =
+            Eigen::Vector3d(1.0, 1.2, 0.7) * (1e-4 + 0.1 * horizon * horizon);
+        prediction.covariance.topLeftCorner<3, 3>().diagonal() = deviation.cwiseAbs2();
+        forecast.predictions.push_back(prediction);
+      }
+      const double to_go = 0.1 * static_cast<double>(zeta.rows() - frozen);
+      const Progress progress{
+          stamp + std::chrono::milliseconds(50), stamp, frozen, prf_core::from_seconds(to_go), {}};
+      times.add([&] { (void)session.plan(progress, &forecast); });
+    }
+  }
+  return times.row("elte, node's whole plan", 0.0);
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) try {
+  if (argc != 2) throw std::invalid_argument("usage: elte_benchmark_core recorded_requests.json");
+  const auto recorded = nlohmann::json::parse(std::ifstream(argv[1]));
   nlohmann::json rows = nlohmann::json::array();
   for (const Eigen::Index nodes : {50, 100, 200, 1000, 10000}) {
     for (const double radius : {0.0, 0.02}) end_point(nodes, radius, rows);
   }
   rows.push_back(obstacle());
+  node_problems(recorded, rows);
+  rows.push_back(whole_plan(recorded));
   std::cout << rows.dump(1) << "\n";
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "elte_benchmark_core: %s\n", error.what());
+  return 2;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "conversions.hpp"
 
@@ -124,6 +125,7 @@ prf_msgs::SkillTrajectory SkillPlannerNode::plan(const JoinedRequest& request) {
 void SkillPlannerNode::note_solve_time(std::chrono::duration<double> time) {
   solve_time_ = time;
   longest_solve_ = std::max(longest_solve_, time);
+  solve_times_.push_back(1e6 * time.count());
   if (!is_late()) return;
   ++late_;
   ROS_WARN_THROTTLE(1.0, "solve took %.6f s, above late_after = %g s; %zu of %zu were late",
@@ -147,6 +149,12 @@ void SkillPlannerNode::diagnose(Status& status) {
   status.add("forecasts refused", refused_);
   status.add("requests waiting for their forecast", queue_.waiting());
   status.add("last solve time, us", 1e6 * solve_time_.count());
+  if (!solve_times_.empty()) {
+    std::vector<double> sorted(solve_times_.begin(), solve_times_.end());
+    std::sort(sorted.begin(), sorted.end());
+    status.add("median solve time, us", sorted[sorted.size() / 2]);
+    status.add("99th percentile of solve times, us", sorted[sorted.size() * 99 / 100]);
+  }
   status.add("longest solve time, us", 1e6 * longest_solve_.count());
   inputs_.report(status);
 }

@@ -8,6 +8,7 @@
 #include <prf_msgs/TargetForecast.h>
 #include <ros/ros.h>
 
+#include <boost/circular_buffer.hpp>
 #include <chrono>
 #include <prf_ros/input_monitor.hpp>
 #include <string>
@@ -46,6 +47,7 @@ class SkillPlannerNode {
   SkillStatus status_ = SkillStatus::kNoPlan;
   std::string message_;  // of the last plan
   std::chrono::duration<double> solve_time_{0.0}, longest_solve_{0.0};
+  boost::circular_buffer<double> solve_times_{10000};  // us, the latest
 
   ros::NodeHandle node_;
   ros::Publisher trajectory_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "allocation_count.hpp"
 #include "random_problems.hpp"
 
 namespace elte_planner {
@@ -79,6 +80,46 @@ TEST_P(SkillPlannerTest, RefusesRequestsThatDoNotFit) {
   refused([](PlanRequest& r) { r.previous(0, 0) = std::nan(""); });
   refused([](PlanRequest& r) { r.previous = Eigen::MatrixXd::Zero(49, 3); });
 }
+
+// Half of it executed, the end moved, a narrowing ball on each of the last nodes.
+PlanRequest approach_request(const Eigen::MatrixXd& zeta, std::mt19937& random) {
+  PlanRequest request;
+  request.previous = zeta;
+  request.frozen = 25;
+  const Eigen::VectorXd offset = random_vector(3, 0.1, random);
+  request.goal = zeta.row(49).transpose() + offset;
+  request.radius = 0.001;
+  for (Eigen::Index k = 30; k < 49; ++k) {
+    request.approach.push_back(
+        {k, zeta.row(k).transpose() + offset, 0.001 * static_cast<double>(50 - k)});
+  }
+  return request;
+}
+
+TEST(ElteSkillPlanner, PlansTheSameWhateverItPlannedBefore) {
+  std::mt19937 random(5);
+  const Eigen::MatrixXd zeta = random_demonstration(50, 3, random);
+  const auto planner = make_skill_planner("elte", zeta, {});
+  for (int i = 0; i < 20; ++i) {
+    const PlanRequest request = approach_request(zeta, random);
+    const PlanResult plan = planner->plan(request);
+    EXPECT_EQ(plan.positions, make_skill_planner("elte", zeta, {})->plan(request).positions);
+    EXPECT_LE(plan.kkt_residual, 1e-14);
+  }
+}
+
+#ifdef ELTE_PLANNER_COUNTS_ALLOCATIONS
+TEST(ElteSkillPlanner, AllocatesNothingButItsPlan) {
+  std::mt19937 random(6);
+  const Eigen::MatrixXd zeta = random_demonstration(50, 3, random);
+  const auto planner = make_skill_planner("elte", zeta, {});
+  const PlanRequest request = approach_request(zeta, random);
+  ASSERT_EQ(planner->plan(request).status, PlanStatus::kSolved);
+  const long before = g_allocations;
+  const PlanResult plan = planner->plan(request);
+  EXPECT_LE(g_allocations - before, 2);
+}
+#endif
 
 TEST(StepBound, IsKeptAndOpensTheRadiusOnlyByWhatIsMissing) {
   std::mt19937 random(3);

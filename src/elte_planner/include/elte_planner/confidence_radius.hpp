@@ -9,11 +9,32 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace elte_planner {
 
-// covariance: symmetric positive semidefinite, 1 to 3 dimensions, m^2. probability in (0, 1).
-// Throws std::invalid_argument otherwise. The radius is 0 for a zero covariance.
+struct NormRule;
+
+// For one probability and number of dimensions; does not allocate.
+class ConfidenceRadius {
+ public:
+  // dimensions: 1 to 3. probability in (0, 1). Throws std::invalid_argument otherwise.
+  ConfidenceRadius(Eigen::Index dimensions, double probability);
+
+  // covariance: symmetric positive semidefinite, m^2; throws std::invalid_argument otherwise. The
+  // radius is 0 for a zero covariance. At or above `enough` it need not be found: then the result
+  // is some value from `enough` up to the radius.
+  double operator()(const Eigen::Ref<const Eigen::MatrixXd>& covariance,
+                    double enough = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  double solve_for_radius(const NormRule& rule, double enough) const;
+
+  Eigen::Index dimensions_;
+  double probability_;
+  double chi_quantile_;
+};
+
 [[nodiscard]] double confidence_radius(const Eigen::Ref<const Eigen::MatrixXd>& covariance,
                                        double probability);
 

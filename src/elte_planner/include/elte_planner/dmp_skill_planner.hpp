@@ -36,7 +36,7 @@ class DmpSkillPlanner : public SkillPlanner {
   std::string name() const override { return "dmp"; }
 
   // Relaxed, with the slack, when the end stays outside the ball.
-  [[nodiscard]] PlanResult plan(const PlanRequest& request) const override;
+  [[nodiscard]] PlanResult plan(const PlanRequest& request) override;
 
  private:
   void fit();

@@ -21,7 +21,7 @@ class ElasticMapSkillPlanner : public SkillPlanner {
 
   std::string name() const override { return "elastic_map"; }
 
-  [[nodiscard]] PlanResult plan(const PlanRequest& request) const override;
+  [[nodiscard]] PlanResult plan(const PlanRequest& request) override;
 
  private:
   Eigen::MatrixXd demonstration_;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "elte_planner/edit_problem.hpp"
 #include "elte_planner/elte_energy.hpp"
 #include "elte_planner/endpoint_solver.hpp"
 #include "elte_planner/skill_planner.hpp"
@@ -25,18 +26,21 @@ class ElteSkillPlanner : public SkillPlanner {
 
   std::string name() const override { return name_; }
 
-  [[nodiscard]] PlanResult plan(const PlanRequest& request) const override;
+  [[nodiscard]] PlanResult plan(const PlanRequest& request) override;
 
  private:
   bool keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const;
   static bool keeps_approach(const PlanResult& plan, const PlanRequest& request);
-  PlanResult plan_with_constraints(const PlanRequest& request) const;
+  PlanResult plan_with_constraints(const PlanRequest& request);
 
   Eigen::MatrixXd demonstration_;
   ElteWeights weights_;
   std::string name_;
   SolveLimits limits_;
-  EndpointSolver solver_;
+  EndpointSolver solver_;  // where the balls before the last node do not matter
+  EditSolver edit_solver_;
+  EditProblem problem_;
+  EditSolution solution_;
 };
 
 }  // namespace elte_planner

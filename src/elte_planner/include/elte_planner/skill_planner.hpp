@@ -52,8 +52,9 @@ class SkillPlanner {
 
   virtual std::string name() const = 0;
 
-  // Throws std::invalid_argument for a request of wrong size or with values that are not finite.
-  [[nodiscard]] virtual PlanResult plan(const PlanRequest& request) const = 0;
+  // Depends on the request alone; memory is kept for the next one. Throws std::invalid_argument for
+  // a request of wrong size or with values that are not finite.
+  [[nodiscard]] virtual PlanResult plan(const PlanRequest& request) = 0;
 };
 
 // For implementations: throws std::invalid_argument unless the request fits the demonstration.

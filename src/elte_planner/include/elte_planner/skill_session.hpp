@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "elte_planner/confidence_radius.hpp"
 #include "elte_planner/demonstration.hpp"
 #include "elte_planner/elte_energy.hpp"
 #include "elte_planner/skill_planner.hpp"
@@ -115,16 +116,17 @@ class SkillSession {
  private:
   struct NodeGoal {
     Pose pose;
-    double radius;  // of the l1 ball, m
+    double radius;  // of the l1 ball, m; 0 at a frozen node but the last
   };
 
-  std::vector<NodeGoal> goals(const prf_core::TargetForecast& forecast,
-                              prf_core::Stamp end_stamp) const;
+  std::vector<NodeGoal> goals(const prf_core::TargetForecast& forecast, prf_core::Stamp end_stamp,
+                              Eigen::Index frozen) const;
   SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
   SkillResult keep(const std::string& reason, Eigen::Index frozen) const;
 
   SessionParams params_;
   Demonstration demonstration_;  // resampled to the plan's nodes
+  ConfidenceRadius confidence_radius_;
   Pose goal_in_target_;
   std::vector<TimedPose> approach_;  // the last nodes, in the target's frame
   std::vector<Eigen::Quaterniond> demonstrated_orientations_;

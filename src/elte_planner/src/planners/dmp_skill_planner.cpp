@@ -65,7 +65,7 @@ void DmpSkillPlanner::fit() {
   weights_ = denominator.cwiseInverse().asDiagonal() * numerator;
 }
 
-PlanResult DmpSkillPlanner::plan(const PlanRequest& request) const {
+PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
   const Eigen::Index n = demonstration_.rows();
   if (request.frozen == n) return all_frozen(request);

@@ -43,7 +43,7 @@ ElasticMapSkillPlanner::ElasticMapSkillPlanner(const Eigen::MatrixXd& demonstrat
 
 // The cost of moving the last node, all others following, is isotropic: its best place in the ball
 // is the projection of the best free one, and the others follow along H^-1 e_last.
-PlanResult ElasticMapSkillPlanner::plan(const PlanRequest& request) const {
+PlanResult ElasticMapSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
   const Eigen::Index n = demonstration_.rows();
   if (request.frozen == n) return all_frozen(request);

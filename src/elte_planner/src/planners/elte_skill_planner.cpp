@@ -6,9 +6,18 @@
 #include <stdexcept>
 #include <utility>
 
-#include "elte_planner/edit_problem.hpp"
-
 namespace elte_planner {
+namespace {
+
+void set_ball(Eigen::Index node, const Eigen::VectorXd& centre, double radius,
+              PointConstraint& constraint) {
+  constraint.shape = PointConstraint::Shape::kBall;
+  constraint.node = node;
+  constraint.centre = centre;
+  constraint.radius = radius;
+}
+
+}  // namespace
 
 ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
                                    std::string name, const SolveLimits& limits)
@@ -21,9 +30,12 @@ ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const E
     throw std::invalid_argument("max_step is " + std::to_string(limits.max_step) +
                                 " m, must be above 0 m");
   }
+  problem_.zeta = demonstration;
+  problem_.weights = weights;
+  problem_.max_step = limits.max_step;
 }
 
-PlanResult ElteSkillPlanner::plan(const PlanRequest& request) const {
+PlanResult ElteSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
   if (request.frozen == demonstration_.rows()) return all_frozen(request);
   PlanResult result;
@@ -50,13 +62,9 @@ bool ElteSkillPlanner::keeps_approach(const PlanResult& plan, const PlanRequest&
   });
 }
 
-PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) const {
+PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
   const Eigen::Index last = demonstration_.rows() - 1;
-  EditProblem problem;
-  problem.zeta = demonstration_;
-  problem.weights = weights_;
-  problem.fixed = request.previous.topRows(request.frozen);
-  problem.max_step = limits_.max_step;
+  problem_.fixed = request.previous.topRows(request.frozen);
   // Just within reach: exactly at its edge every step is at its bound and nothing is left to
   // choose.
   const double reach =
@@ -64,20 +72,21 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) c
   const double distance =
       (request.goal.transpose() - request.previous.row(request.frozen - 1)).lpNorm<1>();
   const double radius = std::max(request.radius, distance - reach);
-  problem.constraints = {PointConstraint::ball(last, request.goal, radius)};
-  for (const NodeBall& ball : request.approach) {
-    problem.constraints.push_back(PointConstraint::ball(ball.node, ball.centre, ball.radius));
+  problem_.constraints.resize(request.approach.size() + 1);
+  set_ball(last, request.goal, radius, problem_.constraints[0]);
+  for (std::size_t i = 0; i < request.approach.size(); ++i) {
+    const NodeBall& ball = request.approach[i];
+    set_ball(ball.node, ball.centre, ball.radius, problem_.constraints[i + 1]);
   }
   EditParams params;
   params.max_iterations = limits_.max_iterations;
-  EditSolution solution;
-  EditSolver().solve(problem, params, solution);
+  edit_solver_.solve(problem_, params, solution_);
 
   PlanResult result;
-  result.message = solution.message;
-  if (solution.status != EditStatus::kSolved) return result;
-  result.positions = solution.y;
-  result.kkt_residual = solution.kkt_residual;
+  result.message = solution_.message;
+  if (solution_.status != EditStatus::kSolved) return result;
+  result.positions = solution_.y;
+  result.kkt_residual = solution_.kkt_residual;
   result.slack = radius - request.radius;
   result.status = result.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved;
   if (result.slack > 0.0) result.message = "the goal is beyond what the bound on steps allows";

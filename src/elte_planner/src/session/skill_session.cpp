@@ -9,7 +9,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "elte_planner/confidence_radius.hpp"
 #include "elte_planner/orientation_blend.hpp"
 
 namespace elte_planner {
@@ -64,6 +63,7 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
     : params_(params),
       demonstration_(demonstration.resampled_by_arc_length(
           static_cast<std::size_t>((params.validate(), params.nodes)))),
+      confidence_radius_(3, params.confidence),
       goal_in_target_(demonstration_.goal_in_target()),
       approach_(approach(demonstration_, params.approach_length)),
       demonstrated_orientations_(orientations(demonstration_.samples())),
@@ -120,7 +120,7 @@ SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* f
   }
   try {
     forecast->validate();
-    return adapt(frozen, goals(*forecast, progress.stamp + progress.time_to_go));
+    return adapt(frozen, goals(*forecast, progress.stamp + progress.time_to_go, frozen));
   } catch (const std::invalid_argument& refused) {
     return keep(refused.what(), frozen);
   }
@@ -128,23 +128,33 @@ SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* f
 
 // end_stamp: when the hand reaches the last node.
 std::vector<SkillSession::NodeGoal> SkillSession::goals(const TargetForecast& forecast,
-                                                        prf_core::Stamp end_stamp) const {
+                                                        prf_core::Stamp end_stamp,
+                                                        Eigen::Index frozen) const {
   using prf_core::Duration;
   const Duration horizon_max =
       prf_core::from_seconds(params_.adaptation == Adaptation::kOnce ? 0.0 : params_.horizon_max);
   std::vector<NodeGoal> result;
+  result.reserve(approach_.size());
   const TimedPose& end = approach_.back();
-  for (const TimedPose& node : approach_) {
+  // Nodes beyond either end of the forecast share one covariance.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double radius = params_.radius_min;
+  for (std::size_t i = 0; i < approach_.size(); ++i) {
+    const TimedPose& node = approach_[i];
     const Duration before_end = prf_core::from_seconds(end.time - node.time);
     const Duration horizon =
         std::clamp(end_stamp - before_end - forecast.stamp, Duration{0}, horizon_max);
     const auto target = prf_core::predicted_target(forecast, forecast.stamp + horizon);
-    const double radius =
-        std::clamp(confidence_radius(target.position_covariance(), params_.confidence),
-                   params_.radius_min, params_.radius_max);
+    result.push_back({pose_from(target.target.pose.isometry() * node.pose.isometry()), 0.0});
+    const std::size_t to_end = approach_.size() - 1 - i;
+    if (to_end > 0 && params_.nodes - 1 - static_cast<Eigen::Index>(to_end) < frozen) continue;
+    if (target.position_covariance() != covariance) {
+      covariance = target.position_covariance();
+      radius = std::clamp(confidence_radius_(covariance, params_.radius_max), params_.radius_min,
+                          params_.radius_max);
+    }
     const double distance = (node.pose.position - end.pose.position).norm();
-    result.push_back({pose_from(target.target.pose.isometry() * node.pose.isometry()),
-                      radius + kNarrowing * distance});
+    result.back().radius = radius + kNarrowing * distance;
   }
   return result;
 }

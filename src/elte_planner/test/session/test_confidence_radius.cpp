@@ -70,6 +70,32 @@ TEST(ConfidenceRadius, AcceptsACovarianceOfOneDirection) {
   EXPECT_NEAR(confidence_radius(covariance, 0.95), 3.5 * 1.959964, 0.02);
 }
 
+TEST(ConfidenceRadius, ChangesAsLittleAsTheCovariance) {
+  // Nearly equal variances: the directions of the axes are then made of rounding.
+  std::mt19937 random(3);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3d change = random_covariance(3, random);
+    const double one = confidence_radius(Eigen::Matrix3d::Identity() + 1e-9 * change, 0.5);
+    const double other =
+        confidence_radius(Eigen::Matrix3d::Identity() - 1e-9 * change.transpose(), 0.5);
+    ASSERT_NEAR(one, other, 3e-9 * change.norm());
+  }
+}
+
+TEST(ConfidenceRadius, NeedNotBeFoundAboveWhatIsEnough) {
+  std::mt19937 random(4);
+  const ConfidenceRadius radius_of(3, 0.5);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Matrix3d covariance = random_covariance(3, random);
+    const double exact = radius_of(covariance);
+    for (const double share : {0.01, 0.5, 0.8, 0.99, 1.01, 2.0}) {
+      const double found = radius_of(covariance, share * exact);
+      ASSERT_LE(found, exact);
+      ASSERT_GE(found, std::min(share, 1.0) * exact * (1.0 - 1e-12));
+    }
+  }
+}
+
 TEST(ConfidenceRadius, RefusesWhatIsNoCovarianceOrProbability) {
   const Eigen::Matrix3d good = Eigen::Matrix3d::Identity();
   for (const double bad : {0.0, 1.0, -0.1, 1.1, std::nan("")}) {

@@ -79,6 +79,9 @@ def sections(content: dict, data: recording.Recording | None,
         measures += [(name, value) for name, value in content.get(part, {}).items()
                      if name != "violations"]
     measures += [(name, content.get(name)) for name in ("wall_time_s", "simulated_per_real_time")]
+    if data is not None:
+        measures += [(f"solve time of a plan, {name}, µs", value)
+                     for name, value in timeline.solve_times(data).items()]
     violations = content.get("invariants", {}).get("violations", [])
     found = [Section("INVARIANTS BROKEN", "What must hold in every trial did not hold in this one.",
                      [page.table([(text,) for text in violations])])] if violations else []

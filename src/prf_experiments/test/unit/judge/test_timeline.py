@@ -101,12 +101,15 @@ class Timeline(unittest.TestCase):
     def test_text_has_phases_solve_times_and_losses(self):
         data = synthetic.make_recording(4.0, lateral=0.010)
         data.diagnostics = {
-            "skill_planner": {"last solve time, us": ["90.0", "110.0"], "plans sent": ["7", "9"]},
+            "skill_planner": {"median solve time, us": ["90.0", "100.0"],
+                              "99th percentile of solve times, us": ["91.0", "105.0"],
+                              "longest solve time, us": ["92.0", "110.0"],
+                              "plans sent": ["7", "9"]},
             "target_predictor": {"dropped: outside the gate": ["0", "3"]}}
         text = timeline.text(data, judge.judge(data))
         self.assertTrue(text.startswith("S (inspected): reached at 1.00 s"), text)
         self.assertRegex(text, r"FORWARD +2\.00 +10\.0 +0\.0 +10\.0")
-        self.assertIn("median 100 µs, most 110 µs", text)
+        self.assertIn("median 100 µs, 99 % 105 µs, most 110 µs", text)
         self.assertIn("target_predictor: dropped: outside the gate: 3", text)
         self.assertNotIn("plans sent", text)
         self.assertRegex(text, r"forecasts 0\.50 s ahead: \d+\.\d mm rms")
