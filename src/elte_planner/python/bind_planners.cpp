@@ -84,7 +84,7 @@ void bind_planners(py::module_& m) {
            "of consecutive nodes; only elte and lte keep one.")
       .def(
           "plan",
-          [](const SkillPlanner& planner, const Eigen::MatrixXd& previous, Eigen::Index frozen,
+          [](SkillPlanner& planner, const Eigen::MatrixXd& previous, Eigen::Index frozen,
              const Eigen::VectorXd& goal, double radius, const std::vector<Via>& via) {
             PlanRequest request{previous, frozen, goal, radius};
             for (const auto& [node, centre, ball] : via) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <prf_core/chi_square.hpp>
 #include <prf_core/require.hpp>
 #include <stdexcept>
 #include <string>
@@ -44,8 +43,7 @@ struct Probability {
   double value, density;
 };
 
-// P(chi_d <= x) for d <= 3, which is prf_core::chi_square_cdf(d, x^2) in closed form: it takes a
-// twentieth of Boost's time.
+// P(chi_d <= x) for d <= 3 and its derivative.
 Probability chi_distribution(Eigen::Index dimensions, double x) {
   const double bell = std::exp(-0.5 * x * x);
   if (dimensions == 2) return {-std::expm1(-0.5 * x * x), x * bell};
@@ -53,6 +51,16 @@ Probability chi_distribution(Eigen::Index dimensions, double x) {
   const double density = std::sqrt(M_2_PI) * bell;
   if (dimensions == 1) return {half_normal, density};
   return {half_normal - x * density, x * x * density};
+}
+
+double chi_quantile(Eigen::Index dimensions, double probability) {
+  double low = 0.0;
+  double high = 40.0;  // beyond it the probability is 1 to the last digit
+  while (true) {
+    const double middle = 0.5 * (low + high);
+    if (!(low < middle && middle < high)) return high;
+    (chi_distribution(dimensions, middle).value < probability ? low : high) = middle;
+  }
 }
 
 // Cholesky's factor, or nothing for a matrix that is not clearly positive definite.
@@ -111,8 +119,7 @@ ConfidenceRadius::ConfidenceRadius(Eigen::Index dimensions, double probability)
   prf_core::require_between("dimensions", static_cast<double>(dimensions), 1.0, 3.0);
   prf_core::require(probability > 0.0 && probability < 1.0, "probability", probability,
                     "within (0, 1)");
-  chi_quantile_ =
-      std::sqrt(prf_core::chi_square_quantile(static_cast<int>(dimensions), probability));
+  chi_quantile_ = chi_quantile(dimensions, probability);
 }
 
 double ConfidenceRadius::operator()(const Eigen::Ref<const Eigen::MatrixXd>& covariance,
