@@ -135,7 +135,7 @@ class Command(unittest.TestCase):
         self.assertIn(expected, run.stderr.splitlines()[-1])
 
     def test_refuses_bad_input_with_one_line_and_exit_code_2(self):
-        self.refuse("cannot be read", self.path("none.csv"))
+        self.refuse("there is no such file", self.path("none.csv"))
         self.refuse("executed", DEMONSTRATION, "--executed", "x")
         self.refuse("frozen is 51", DEMONSTRATION, "--executed", "51")
         self.refuse("radius is -1", DEMONSTRATION, "--radius", "-1")

@@ -68,7 +68,7 @@ class Module(unittest.TestCase):
             path = os.path.join(folder, "saved.csv")
             elte_planner.save_demonstration(noted, path)
             loaded = elte_planner.load_demonstration(path)
-            with self.assertRaisesRegex(ValueError, "none.csv: cannot be read"):
+            with self.assertRaisesRegex(ValueError, "none.csv: there is no such file"):
                 elte_planner.load_demonstration(os.path.join(folder, "none.csv"))
         self.assertEqual(loaded.notes, {"by": "hand"})
         np.testing.assert_allclose(loaded.poses, demonstration.poses, atol=2e-9)

@@ -175,7 +175,7 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertAlmostEqual(before.poses[-1].position.x - moved.poses[-1].position.x, 0.1, 2)
         self.assertEqual((missing.status, missing.poses), (SkillTrajectory.REFUSED, []))
         self.assertEqual(missing.message,
-                         os.path.join(os.path.dirname(first), "missing.csv: cannot be read"))
+                         os.path.join(os.path.dirname(first), "missing.csv: there is no such file"))
         self.assertEqual((kept.status, kept.poses), (moved.status, moved.poses))
         self.assertEqual(back.poses, before.poses)
 
@@ -248,7 +248,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("radius_max = 5", radius_max=5.0)
         self.check("late_after = 0", late_after=0.0)
         self.check("frame is 'world'", frame="world")
-        self.check("/nonexistent.csv: cannot be read", demonstration="/nonexistent.csv")
+        self.check("/nonexistent.csv: there is no such file", demonstration="/nonexistent.csv")
 
     def test_missing_and_unknown_keys_are_refused_by_name(self):
         self.check("nodes is missing", nodes=None)

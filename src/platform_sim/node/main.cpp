@@ -23,6 +23,6 @@ int main(int argc, char** argv) {
     end_reason = Simulation(node, private_node, params, urdf).run();
   });
   if (refused != 0) return refused;
-  constexpr int kSilentExitCode = 3;
+  constexpr int kSilentExitCode = 5;  // 2 and 3 are prf_ros::run's
   return end_reason == Simulation::End::kSilent ? kSilentExitCode : 0;
 }

@@ -273,5 +273,28 @@ TEST(RobotModel, RefusesRobotsThatCannotBeSimulated) {
                std::invalid_argument);
 }
 
+// Fault 54: masses, inertias or limits in the URDF negative, absurd, not finite -> refused by name
+TEST(RobotModel, RefusesNumbersThatNoRobotHas) {
+  const auto spoilt = [](const std::string& from, const std::string& to) {
+    std::string urdf = two_link_robot();
+    urdf.replace(urdf.find(from), from.size(), to);
+    try {
+      (void)v60_gait::rigid_tree_from_urdf(urdf, true);
+      return std::string("accepted");
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string mass = "<mass value='0.500000'/>", inertia = "ixx='0.002'";
+  for (const char* value : {"-0.1", "1e300", "nan", "inf"}) {
+    const std::string number = std::string("'") + value + "'";
+    EXPECT_NE(spoilt(mass, "<mass value=" + number + "/>"), "accepted") << number;
+    EXPECT_NE(spoilt(inertia, "ixx=" + number), "accepted") << number;
+    EXPECT_NE(spoilt("effort='60'", "effort=" + number), "accepted") << number;
+  }
+  EXPECT_EQ(spoilt(mass, "<mass value='-0.1'/>"),
+            "mass of link \"weight\" = -0.1, must be within [0, 10000] kg");
+}
+
 }  // namespace
 }  // namespace platform_sim

@@ -2,11 +2,14 @@
 // Messages to core types and back.
 #pragma once
 
+#include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <prf_msgs/TagDetectionArray.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/RegionOfInterest.h>
 #include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
 #include <std_msgs/Header.h>
 
 #include <algorithm>
@@ -23,42 +26,99 @@ namespace prf_perception {
 
 using prf_core::quoted;
 
-inline ImageLayout to_layout(const sensor_msgs::Image& image) {
-  return {image.encoding, image.width, image.height, image.step, image.data.size()};
+// The image in grey, 8 bits. Throws std::invalid_argument for numbers that do not fit each other,
+// and for an encoding that is not in image_layout.hpp.
+inline cv_bridge::CvImageConstPtr to_grey(const sensor_msgs::ImageConstPtr& image) {
+  namespace encodings = sensor_msgs::image_encodings;
+  ImageLayout{image->encoding, image->width, image->height, image->step, image->data.size()}
+      .validate();
+  const bool is_grey = image->encoding == encodings::TYPE_8UC1;  // which cv_bridge does not convert
+  return cv_bridge::toCvShare(image, is_grey ? std::string() : encodings::MONO8);
 }
 
-// Throws std::invalid_argument for what the detector cannot use: another size than the image's or
-// another frame, a lens of another model than plumb_bob, sheared or rectified pixels, a binned or
-// cut image. R and P are of rectified images and are not used.
+// The part of the sensor that the image shows: sensor_msgs/CameraInfo's roi, the whole when it is
+// zero. Whether a rectified window is wanted (do_rectify) is nothing to the raw image.
+inline sensor_msgs::RegionOfInterest window_of(const sensor_msgs::CameraInfo& info) {
+  using prf_core::require;
+  sensor_msgs::RegionOfInterest window = info.roi;
+  const auto text = [](std::uint64_t size, std::uint64_t offset) {
+    return std::to_string(size) + " px from " + std::to_string(offset);
+  };
+  const bool is_whole =
+      window.width == 0 && window.height == 0 && window.x_offset == 0 && window.y_offset == 0;
+  if (is_whole) {
+    window.width = info.width;
+    window.height = info.height;
+  }
+  const auto fits = [&](const char* name, std::uint64_t size, std::uint64_t offset,
+                        std::uint32_t whole) {
+    require(size > 0 && offset + size <= whole, name, text(size, offset),
+            "within camera_info's " + std::to_string(whole) + " px, which are the whole sensor's");
+  };
+  fits("roi width of camera_info", window.width, window.x_offset, info.width);
+  fits("roi height of camera_info", window.height, window.y_offset, info.height);
+  return window;
+}
+
+// Of the names in sensor_msgs/distortion_models.h. Zeros mean a pinhole for those of Brown's kind
+// only; without a name they mean no distortion.
+inline void read_lens(const sensor_msgs::CameraInfo& info, CameraIntrinsics& camera) {
+  namespace models = sensor_msgs::distortion_models;
+  using prf_core::require;
+  const std::string& model = info.distortion_model;
+  const auto is_zero = [](double d) { return d == 0.0; };
+  if (model.empty() && std::all_of(info.D.begin(), info.D.end(), is_zero)) return;
+  std::size_t count = 0;
+  if (model == models::PLUMB_BOB) {
+    count = 5;
+  } else if (model == models::RATIONAL_POLYNOMIAL) {
+    count = 8;
+  } else if (model == models::EQUIDISTANT) {
+    count = 4;
+    camera.lens = LensModel::kEquidistant;
+    require(info.D.size() >= count, "length of D of camera_info", info.D.size(),
+            "4 for equidistant (is the camera calibrated?)");
+  }
+  require(count > 0, "distortion_model of camera_info", quoted(model),
+          "plumb_bob, rational_polynomial or equidistant");
+  const std::size_t given = std::min(count, info.D.size());
+  require(std::all_of(info.D.begin() + static_cast<std::ptrdiff_t>(given), info.D.end(), is_zero),
+          "length of D of camera_info", info.D.size(),
+          "up to " + std::to_string(count) + " for " + model);
+  std::copy_n(info.D.begin(), given, camera.distortion.begin());
+}
+
+// The camera as it took this image. K is of the whole sensor at full resolution; as in
+// image_geometry the principal point is moved into the window, then everything is divided by the
+// binning. R and P are of rectified images and are not used.
+// Throws std::invalid_argument for what the detector cannot use: another frame than the image's,
+// sizes that do not fit the image, sheared pixels, a lens of another model than lens.hpp has.
 inline CameraIntrinsics to_intrinsics(const sensor_msgs::CameraInfo& info,
                                       const sensor_msgs::Image& image) {
   using prf_core::require;
   require(info.header.frame_id == image.header.frame_id, "frame_id of camera_info",
           quoted(info.header.frame_id), "the image's, " + quoted(image.header.frame_id));
-  require(info.width == image.width, "width of camera_info", info.width,
-          std::to_string(image.width) + " px, the image's");
-  require(info.height == image.height, "height of camera_info", info.height,
-          std::to_string(image.height) + " px, the image's");
-  require(info.binning_x <= 1 && info.binning_y <= 1, "binning of camera_info",
-          std::max(info.binning_x, info.binning_y), "0 or 1");
-  const auto& roi = info.roi;
-  const bool is_whole = roi.x_offset == 0 && roi.y_offset == 0 && !roi.do_rectify &&
-                        (roi.width == 0 || roi.width == info.width) &&
-                        (roi.height == 0 || roi.height == info.height);
-  require(is_whole, "roi of camera_info",
-          std::to_string(roi.width) + " x " + std::to_string(roi.height),
-          "the whole image, not rectified");
+  const sensor_msgs::RegionOfInterest window = window_of(info);
+  const std::uint32_t binning_x = std::max(info.binning_x, 1U);
+  const std::uint32_t binning_y = std::max(info.binning_y, 1U);
+  const auto fits = [](const std::string& name, std::uint32_t size, std::uint32_t binning,
+                       std::uint32_t wanted) {
+    require(size / binning == wanted, name,
+            std::to_string(size) + " px, binned by " + std::to_string(binning),
+            std::to_string(wanted) + " px in the end, the image's");
+  };
+  fits("width of camera_info", window.width, binning_x, image.width);
+  fits("height of camera_info", window.height, binning_y, image.height);
   const auto& K = info.K;
   require(K[1] == 0.0 && K[3] == 0.0 && K[6] == 0.0 && K[7] == 0.0 && K[8] == 1.0,
           "K of camera_info", K[0], "fx 0 cx 0 fy cy 0 0 1 (is the camera calibrated?)");
-  CameraIntrinsics camera{
-      K[0], K[4], K[2], K[5], static_cast<int>(info.width), static_cast<int>(info.height), {}};
-  if (std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0.0; })) return camera;
-  require(info.distortion_model == sensor_msgs::distortion_models::PLUMB_BOB,
-          "distortion_model of camera_info", quoted(info.distortion_model), "plumb_bob, or D zero");
-  require(info.D.size() <= camera.distortion.size(), "length of D of camera_info", info.D.size(),
-          "up to 5");
-  std::copy(info.D.begin(), info.D.end(), camera.distortion.begin());
+  CameraIntrinsics camera{K[0] / binning_x,
+                          K[4] / binning_y,
+                          (K[2] - window.x_offset) / binning_x,
+                          (K[5] - window.y_offset) / binning_y,
+                          static_cast<int>(image.width),
+                          static_cast<int>(image.height)};
+  read_lens(info, camera);
   return camera;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cv_bridge/cv_bridge.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <prf_msgs/topics.h>
 #include <ros/ros.h>
@@ -22,7 +21,6 @@
 namespace prf_perception {
 namespace {
 
-namespace encodings = sensor_msgs::image_encodings;
 namespace topics = prf_msgs::topics;
 
 constexpr double kRate = 30.0;  // Hz, of images
@@ -52,7 +50,7 @@ class TagDetectorNode {
         {topics::kCameraCameraInfo, "sensor_msgs/CameraInfo with the stamp of each image", kRate},
         100, [this](const sensor_msgs::CameraInfoConstPtr& info) { on_info(info); });
     inputs_.subscribe<sensor_msgs::Image>(
-        {topics::kCameraImageRaw, "sensor_msgs/Image, mono8, bgr8 or rgb8", kRate}, 10,
+        {topics::kCameraImageRaw, "sensor_msgs/Image", kRate}, 10,
         [this](const sensor_msgs::ImageConstPtr& image) { on_image(image); });
     // Advertised last: whoever sees this publisher may send, both topics are subscribed.
     publisher_ = node.advertise<prf_msgs::TagDetectionArray>(topics::kTagDetections, 100);
@@ -108,10 +106,9 @@ class TagDetectorNode {
     const sensor_msgs::Image& image = *joined.first;
     if (image.header.frame_id.empty()) throw std::invalid_argument("its frame_id is empty");
     if (!joined.second) throw std::invalid_argument("no camera_info has its stamp");
-    to_layout(image).validate();
+    const auto grey = to_grey(joined.first);
     const CameraIntrinsics camera = to_intrinsics(**joined.second, image);
     camera.validate();
-    const auto grey = cv_bridge::toCvShare(joined.first, encodings::MONO8);
     return detector_.detect(
         {grey->image.data, grey->image.cols, grey->image.rows, static_cast<int>(grey->image.step)},
         camera);

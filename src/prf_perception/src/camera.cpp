@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "lens_polynomials.hpp"
+
 namespace prf_perception {
 namespace {
 
@@ -24,9 +26,9 @@ void require_focal_length(const std::string& name, double value, double size) {
   prf_core::require_between(name, value, kShortest * size, kLongest * size, "px");
 }
 
-// The image's own size beyond each border: an image that was cut out of a larger one.
-void require_principal_point(const std::string& name, double value, double size) {
-  prf_core::require_between(name, value, -size, 2.0 * size, "px");
+// The image may be a window that was cut out of the largest one, anywhere.
+void require_principal_point(const std::string& name, double value) {
+  prf_core::require_between(name, value, -kLargestImage, 2.0 * kLargestImage, "px");
 }
 
 // Normalised distance of the image's farthest corner from the optical axis, as it is seen.
@@ -39,27 +41,39 @@ double farthest_corner(const CameraIntrinsics& camera) {
 // What is seen must move outward with the ideal radius r, neither too slowly nor too fast, until it
 // has passed the corners: a lens that folds the image over itself has no inverse there, and so no
 // pose. The derivatives of the tangential part are at most 6 (|p1| + |p2|) r. Not-a-number fails.
-bool rises_to_the_corners(const CameraIntrinsics& camera) {
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  const double tangential = 6.0 * (std::abs(p1) + std::abs(p2));
+bool brown_rises_to_the_corners(const CameraIntrinsics& camera) {
+  const double tangential = 6.0 * (std::abs(camera.distortion[2]) + std::abs(camera.distortion[3]));
   const double corner = kMargin * farthest_corner(camera);
   const double step = corner / kRadii;
   double seen = 0.0;
   // With the least slope the corner is reached at this radius at the latest.
   for (double r = 0.0; seen < corner && r <= corner / kLeastSlope + step; r += step) {
-    const double s = r * r;
-    seen = r * (1.0 + s * (k1 + s * (k2 + s * k3)));
-    const double slope = 1.0 + s * (3.0 * k1 + s * (5.0 * k2 + s * 7.0 * k3));
+    const auto [radial, radial_slope] = brown_radial(camera, r * r);
+    seen = r * radial;
+    const double slope = radial + 2.0 * r * r * radial_slope;
     const double bend = tangential * r;
     if (!(slope - bend > kLeastSlope && slope + bend < kLargestSlope)) return false;
   }
   return seen >= corner;
 }
 
+// The same over the angle, up to the corners or, of a lens that sees farther, to the widest angle.
+bool equidistant_rises(const CameraIntrinsics& camera) {
+  const double corner = kMargin * farthest_corner(camera);
+  double seen = 0.0;
+  for (int i = 0; seen < corner && i <= kRadii; ++i) {
+    const auto [radius, slope] = equidistant_radius(camera, kWidestAngle * i / kRadii);
+    seen = radius;
+    if (!(slope > kLeastSlope && slope < kLargestSlope)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool CameraIntrinsics::distorts() const {
-  return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
+  return lens == LensModel::kEquidistant ||
+         std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
 }
 
 void CameraIntrinsics::validate() const {
@@ -68,14 +82,17 @@ void CameraIntrinsics::validate() const {
   require_focal_length("camera fx", fx, std::max(width, height));
   require_focal_length("camera fy", fy, std::max(width, height));
   prf_core::require_between("camera fx / fy", fx / fy, 1.0 / kPixelAspect, kPixelAspect);
-  require_principal_point("camera cx", cx, width);
-  require_principal_point("camera cy", cy, height);
+  require_principal_point("camera cx", cx);
+  require_principal_point("camera cy", cy);
   if (!distorts()) return;
   std::ostringstream coefficients;
   for (const double d : distortion) coefficients << d << " ";
-  prf_core::require(rises_to_the_corners(*this), "camera distortion k1 k2 p1 p2 k3",
-                    coefficients.str(),
-                    "such that what is seen moves outward with the radius, up to the corners");
+  const bool is_brown = lens == LensModel::kBrown;
+  prf_core::require(
+      is_brown ? brown_rises_to_the_corners(*this) : equidistant_rises(*this),
+      std::string("camera distortion ") + (is_brown ? "k1 k2 p1 p2 k3 k4 k5 k6" : "k1 k2 k3 k4"),
+      coefficients.str(),
+      "such that what is seen moves outward with the radius, up to the corners");
 }
 
 }  // namespace prf_perception

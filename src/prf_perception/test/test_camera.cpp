@@ -32,6 +32,11 @@ TEST(CameraIntrinsics, AcceptsCamerasOfAllKinds) {
   EXPECT_EQ(refusal_of({9000, 9000, 650, 500, 1280, 1024, {-0.2, 15.0, 1e-3, 2e-3, -200.0}}), "");
   EXPECT_EQ(refusal_of({3700, 3700, 2700, 1800, 5472, 3648, {-0.1, 0.1, 0.0, 0.0, 0.0}}), "");
   EXPECT_EQ(refusal_of({900, 900, -100, 400, 320, 240, {}}), "");
+  EXPECT_EQ(refusal_of({900, 900, -540, 400, 100, 100, {}}), "") << "a window in a corner";
+  EXPECT_EQ(refusal_of({615, 615, 320, 240, 640, 480, {0.4, 0, 0, 0, 0, 0.7, 0.1, 0.01}}), "");
+  constexpr LensModel kFisheye = LensModel::kEquidistant;
+  EXPECT_EQ(refusal_of({615, 615, 320, 240, 640, 480, {}, kFisheye}), "");
+  EXPECT_EQ(refusal_of({170, 170, 320, 240, 640, 480, {-0.03, 0.01}, kFisheye}), "") << "180 deg";
 }
 
 // Fault 44: absurd focal lengths, axis, size or lens -> refused by name before a library sees
@@ -66,6 +71,16 @@ TEST(CameraIntrinsics, NameTheValueThatNoCameraHas) {
       {"camera distortion",
        [](CameraIntrinsics& c, double v) { c.distortion[2] = v; },
        {-0.5, 0.5}},
+      {"camera distortion", [](CameraIntrinsics& c, double v) { c.distortion[5] = v; }, absurd},
+      {"camera distortion",
+       [](CameraIntrinsics& c, double v) { c.distortion[5] = v; },
+       {-8.0, 9.0}},
+      {"camera distortion",
+       [](CameraIntrinsics& c, double v) {
+         c.distortion = {v};
+         c.lens = LensModel::kEquidistant;
+       },
+       {kNan, kInfinity, 1e308, -1e308, -3.0, 30.0}},
   };
   for (const BadValue& bad : catalogue) {
     for (const double value : bad.values) {

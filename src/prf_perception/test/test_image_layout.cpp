@@ -22,6 +22,12 @@ TEST(ImageLayout, AcceptsWholeImagesWithAndWithoutPadding) {
   EXPECT_EQ(refusal_of({"mono8", 600, 480, 640, 640 * 480}), "");
   EXPECT_EQ(refusal_of({"bgr8", 640, 480, 1920, 1920 * 480}), "");
   EXPECT_EQ(refusal_of({"rgb8", 32, 32, 96, 96 * 32}), "");
+  EXPECT_EQ(refusal_of({"8UC1", 32, 32, 32, 32 * 32}), "");
+  EXPECT_EQ(refusal_of({"mono16", 32, 32, 64, 64 * 32}), "");
+  EXPECT_EQ(refusal_of({"bgra8", 32, 32, 128, 128 * 32}), "");
+  EXPECT_EQ(refusal_of({"rgba16", 32, 32, 256, 256 * 32}), "");
+  EXPECT_EQ(refusal_of({"bayer_grbg8", 32, 32, 32, 32 * 32}), "");
+  EXPECT_EQ(refusal_of({"yuv422", 32, 32, 64, 64 * 32}), "");
 }
 
 // Fault 44: size and data disagree, also beyond 32 bits -> refused before the data are read
@@ -37,16 +43,20 @@ TEST(ImageLayout, RefusesWhatDoesNotFitItsData) {
   EXPECT_NE(refusal_of({"mono8", 640, 480, 639, 639 * 480}), "");
   EXPECT_NE(refusal_of({"bgr8", 640, 480, 640, 640 * 480}), "") << "three bytes a pixel";
   EXPECT_NE(refusal_of({"mono8", 0, 0, 0, 0}), "");
+  EXPECT_NE(refusal_of({"mono16", 640, 480, 640, 640 * 480}), "") << "two bytes a pixel";
+  EXPECT_NE(refusal_of({"bgra8", 640, 480, 1920, 1920 * 480}), "") << "four bytes a pixel";
+  EXPECT_NE(refusal_of({"yuv422", 641, 480, 1282, 1282 * 480}), "") << "pixels in pairs";
   EXPECT_NE(refusal_of({"mono8", 31, 480, 640, 640 * 480}), "");
   EXPECT_NE(refusal_of({"mono8", 640, 8193, 640, 640 * 8193}), "");
 }
 
 // Fault 44: an encoding that is not read, or garbage as its name -> refused, quoted short
 TEST(ImageLayout, RefusesOtherEncodings) {
-  EXPECT_EQ(refusal_of({"mono16", 640, 480, 1280, 1280 * 480}),
-            "encoding = mono16, must be mono8, bgr8 or rgb8");
+  EXPECT_EQ(refusal_of({"16UC1", 640, 480, 1280, 1280 * 480}),
+            "encoding = \"16UC1\", must be mono, bgr(a), rgb(a) or bayer_ of 8 or 16 bits, yuv422 "
+            "or 8UC1");
   EXPECT_NE(refusal_of({"", 640, 480, 640, 640 * 480}), "");
-  EXPECT_LT(refusal_of({std::string(100000, 'x'), 640, 480, 640, 640 * 480}).size(), 100U);
+  EXPECT_LT(refusal_of({std::string(100000, 'x'), 640, 480, 640, 640 * 480}).size(), 130U);
 }
 
 }  // namespace

@@ -5,18 +5,24 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <opencv2/calib3d.hpp>
 #include <random>
 
 namespace prf_perception {
 namespace {
 
-CameraIntrinsics camera_with(const std::array<double, 5>& distortion) {
-  return {615, 610, 322, 238, 640, 480, distortion};
+CameraIntrinsics camera_with(const std::array<double, 8>& distortion,
+                             LensModel lens = LensModel::kBrown) {
+  return {615, 610, 322, 238, 640, 480, distortion, lens};
 }
 
-const std::array<CameraIntrinsics, 3> kLenses{camera_with({0.1, -0.2, 0.0008, -0.0006, 0.08}),
-                                              camera_with({-0.3, 0.1, 0.002, 0.001, 0.0}),
-                                              camera_with({0.2, 0.0, 0.0, 0.0, 0.0})};
+const std::array<CameraIntrinsics, 6> kLenses{
+    camera_with({0.1, -0.2, 0.0008, -0.0006, 0.08}),
+    camera_with({-0.3, 0.1, 0.002, 0.001, 0.0}),
+    camera_with({0.2, 0.0, 0.0, 0.0, 0.0}),
+    camera_with({0.4, -0.1, 0.0008, -0.0006, 0.02, 0.7, -0.05, 0.01}),
+    camera_with({}, LensModel::kEquidistant),
+    camera_with({-0.03, 0.01, -0.004, 0.001}, LensModel::kEquidistant)};
 
 // A square somewhere in the image, as wide as a marker from 0.3 m.
 Corners random_square(std::mt19937& random) {
@@ -74,6 +80,41 @@ TEST(Lens, FollowsThePlumbBobModel) {
   const Eigen::Vector2d seen = distorted({30, 40}, camera);
   EXPECT_NEAR(seen.x(), 100 * (0.3 * 1.025 + 2 * 0.01 * 0.12), 1e-12);
   EXPECT_NEAR(seen.y(), 100 * (0.4 * 1.025 + 0.01 * (0.25 + 2 * 0.16)), 1e-12);
+}
+
+// An independent implementation of both models.
+Eigen::Vector2d by_opencv(const Eigen::Vector2d& ideal, const CameraIntrinsics& camera) {
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Point2d point((ideal.x() - camera.cx) / camera.fx, (ideal.y() - camera.cy) / camera.fy);
+  const std::vector<double> D(camera.distortion.begin(), camera.distortion.end());
+  std::vector<cv::Point2d> seen;
+  if (camera.lens == LensModel::kEquidistant) {
+    cv::fisheye::distortPoints(std::vector<cv::Point2d>{point}, seen, K,
+                               std::vector<double>(D.begin(), D.begin() + 4));
+  } else {
+    cv::projectPoints(std::vector<cv::Point3d>{{point.x, point.y, 1.0}}, cv::Vec3d::zeros(),
+                      cv::Vec3d::zeros(), K, D, seen);
+  }
+  return {seen[0].x, seen[0].y};
+}
+
+TEST(Lens, ShowsWhatOpenCvShows) {
+  for (const auto& camera : kLenses) {
+    for (double x = 0; x <= 640; x += 80) {
+      for (double y = 0; y <= 480; y += 80) {
+        EXPECT_LT((distorted({x, y}, camera) - by_opencv({x, y}, camera)).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Lens, SeesNothingBeyondThePinhole) {
+  CameraIntrinsics fisheye = camera_with({}, LensModel::kEquidistant);
+  fisheye.fx = fisheye.fy = 100;
+  const double degree = 100.0 / 180.0 * 3.14159265358979323846;  // px from the centre for each
+  EXPECT_TRUE(undistorted({322 + 84 * degree, 238}, fisheye).allFinite());
+  EXPECT_FALSE(undistorted({322 + 86 * degree, 238}, fisheye).allFinite());
+  EXPECT_EQ(undistorted({322, 238}, fisheye), Eigen::Vector2d(322, 238));
 }
 
 TEST(Lens, TakesOffWhatStraightFitsToBentEdgesShift) {

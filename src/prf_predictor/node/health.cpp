@@ -17,12 +17,14 @@ Health::Health() {
 
 void Health::warn(const std::string& what, const std::string& detail) {
   count(what);
-  ROS_WARN_THROTTLE(1.0, "%s: %s", what.c_str(), detail.c_str());
+  if (told_[what].is_due()) ROS_WARN("%s: %s", what.c_str(), detail.c_str());
 }
 
 void Health::drop(const std::string& reason, const std::string& detail) {
   count("dropped: " + reason);
-  ROS_WARN_THROTTLE(1.0, "measurement dropped, %s %s", reason.c_str(), detail.c_str());
+  if (!told_[reason].is_due()) return;
+  ROS_WARN("measurement dropped, %s%s%s", reason.c_str(), detail.empty() ? "" : ": ",
+           detail.c_str());
 }
 
 void Health::report(const TrackerResult& result) {

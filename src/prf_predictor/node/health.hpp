@@ -5,6 +5,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <prf_ros/input_monitor.hpp>
+#include <prf_ros/wall_throttle.hpp>
 
 #include <map>
 #include <string>
@@ -18,7 +19,7 @@ class Health {
   Health();
 
   void count(const std::string& what) { ++counts_[what]; }
-  // Counts and warns, throttled.
+  // Counts and warns, throttled for each reason by itself: none hides another.
   void warn(const std::string& what, const std::string& detail);
   void drop(const std::string& reason, const std::string& detail = "");
   void report(const TrackerResult& result);
@@ -35,6 +36,7 @@ class Health {
   void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::map<std::string, std::size_t> counts_;
+  std::map<std::string, prf_ros::WallThrottle> told_;
   const prf_ros::InputMonitor* inputs_ = nullptr;
   std::size_t waiting_ = 0;
   TargetStatus status_ = TargetStatus::kNoTarget;

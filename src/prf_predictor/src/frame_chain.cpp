@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <prf_core/quoted.hpp>
+#include <sstream>
 #include <utility>
 
 namespace prf_predictor {
@@ -17,10 +20,24 @@ constexpr double kFarthest = 1e4;        // m, of one frame in another
 constexpr double kNormTolerance = 0.01;  // of a quaternion
 constexpr int kParentConfirmations = 3;
 constexpr std::size_t kDeepest = 200;  // frames in a row
+constexpr Duration kLateness = std::chrono::milliseconds(500);
 
 bool is_pose(const Pose& pose) {
   return pose.is_finite() && pose.position.cwiseAbs().maxCoeff() <= kFarthest &&
          std::abs(pose.orientation.norm() - 1.0) <= kNormTolerance;
+}
+
+std::string shown(const std::string& frame) { return prf_core::quoted(frame); }
+
+std::string seconds(Duration duration) {
+  std::ostringstream text;
+  text << std::setprecision(3) << prf_core::to_seconds(duration);
+  return text.str();
+}
+
+// Too far apart for a message that is merely late.
+const char* clocks(Duration apart) {
+  return apart > kLateness ? ": are the clocks of camera and robot synchronised?" : "";
 }
 
 }  // namespace
@@ -100,6 +117,27 @@ std::vector<const FrameChain::Frame*> FrameChain::Chain::moving() const {
   return result;
 }
 
+std::string FrameChain::ahead_of_tf(const Chain& between, Stamp stamp) {
+  for (const Frame* frame : between.moving()) {
+    const auto newest = frame->samples.empty() ? std::nullopt : frame->clock.newest();
+    if (!newest) return "no tf yet from " + shown(frame->parent);
+    if (*newest > stamp) continue;
+    return "the image's stamp is " + seconds(stamp - *newest) + " s ahead of the newest tf from " +
+           shown(frame->parent) + clocks(stamp - *newest);
+  }
+  return "";
+}
+
+std::string FrameChain::before_tf(const Chain& between, Stamp stamp) {
+  for (const Frame* frame : between.moving()) {
+    if (frame->samples.empty() || frame->samples.front().stamp <= stamp) continue;
+    const Duration behind = frame->samples.front().stamp - stamp;
+    return ", which is " + seconds(behind) + " s before the oldest tf from " +
+           shown(frame->parent) + clocks(behind);
+  }
+  return "";
+}
+
 // The frame itself first, the root of its tree last. A loop ends after kDeepest.
 std::vector<std::string> FrameChain::ancestors(const std::string& frame) const {
   std::vector<std::string> result{frame};
@@ -167,7 +205,10 @@ FrameChain::LookupResult FrameChain::lookup(const std::string& camera_frame, Sta
     all_later = all_later && newest && *newest > stamp;
     waited = waited || (newest && *newest > stamp + max_wait_);
   }
-  if (!all_later && !waited) return result;
+  if (!all_later && !waited) {
+    result.reason = ahead_of_tf(*between, stamp);
+    return result;
+  }
   const auto compose = [&](const std::vector<const Frame*>& side) {
     std::optional<Eigen::Isometry3d> in_root = Eigen::Isometry3d::Identity();
     for (const Frame* frame : side) {
@@ -185,7 +226,8 @@ FrameChain::LookupResult FrameChain::lookup(const std::string& camera_frame, Sta
   } else {
     result.readiness = Readiness::kNever;
     result.reason = "no transform between " + planning_frame_ + " and \"" +
-                    camera_frame.substr(0, 200) + "\" at the stamp of the image";
+                    camera_frame.substr(0, 200) + "\" at the stamp of the image" +
+                    before_tf(*between, stamp);
   }
   return result;
 }

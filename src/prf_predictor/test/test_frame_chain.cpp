@@ -51,6 +51,24 @@ TEST(FrameChain, InterpolatesOnceALaterSampleIsThere) {
   EXPECT_NEAR(camera_x(chain, kStart + kTick), 0.01 + 0.5 - 1.0, 1e-12);
 }
 
+// Fault 5: camera clock ahead of the robot's, or behind -> the reason says by how much, and asks
+TEST(FrameChain, SaysByHowMuchTheClocksDiffer) {
+  auto chain = robot();
+  EXPECT_EQ(chain.lookup("camera", kStart).reason, "\"camera\" is not connected to planning");
+  move(chain, kStart);
+  move(chain, kStart + kTick);
+  const auto ahead = chain.lookup("camera", kStart + std::chrono::seconds(5));
+  EXPECT_EQ(ahead.readiness, Readiness::kWait);
+  EXPECT_EQ(ahead.reason,
+            "the image's stamp is 4.99 s ahead of the newest tf from \"base\": are the clocks of "
+            "camera and robot synchronised?");
+  EXPECT_EQ(chain.lookup("camera", kStart + 2 * kTick).reason,
+            "the image's stamp is 0.01 s ahead of the newest tf from \"base\"");
+  EXPECT_EQ(chain.lookup("camera", kStart - std::chrono::seconds(3)).reason,
+            "no transform between planning and \"camera\" at the stamp of the image, which is 3 s "
+            "before the oldest tf from \"base\": are the clocks of camera and robot synchronised?");
+}
+
 TEST(FrameChain, ComposesRotationsOnBothSides) {
   FrameChain chain("planning", std::chrono::milliseconds(500));
   const Eigen::Quaterniond quarter(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <boost/core/demangle.hpp>
+#include <charconv>
 #include <optional>
 #include <prf_core/quoted.hpp>
 #include <sstream>
@@ -25,8 +26,36 @@ double to_number(XmlRpcValue& value) {
   return static_cast<double>(value);
 }
 
+// What a person who wrote 3e-4 sees is a number.
+bool looks_like_a_number(const std::string& text) {
+  const char* const begin = text.data() + (text.rfind('+', 0) == 0 ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  double number = 0.0;
+  const auto [stopped, error] = std::from_chars(begin, end, number);
+  return error == std::errc() && stopped == end;
+}
+
+// The value, and what a text that looks like something else lacks.
+std::string shown(const XmlRpcValue& value) {
+  std::ostringstream text;
+  if (value.getType() != XmlRpcValue::TypeString) {
+    value.write(text);
+    return text.str();
+  }
+  const std::string& word = static_cast<const std::string&>(value);
+  return prf_core::quoted(word) +
+         (looks_like_a_number(word)
+              ? " (a text: YAML 1.1, which ROS reads, wants a dot in a number "
+                "with an exponent, as in 3.0e-4, and no quotation marks)"
+              : "");
+}
+
 std::string type_name(const std::exception& error) {
   return boost::core::demangle(typeid(error).name());
+}
+
+std::string element(const std::string& key, int index) {
+  return key + "[" + std::to_string(index) + "]";
 }
 
 XmlRpcValue fetch(const ros::NodeHandle& handle) {
@@ -51,11 +80,7 @@ PrivateParameters::PrivateParameters(const XmlRpcValue& values, std::string pref
 
 void PrivateParameters::refuse(const std::string& key, const XmlRpcValue& value,
                                const std::string& must) const {
-  std::ostringstream message;
-  message << prefix_ << key << " = ";
-  value.write(message);
-  message << ", must be " << must;
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(prefix_ + key + " = " + shown(value) + ", must be " + must);
 }
 
 XmlRpcValue& PrivateParameters::at(const std::string& key) {
@@ -100,7 +125,7 @@ std::vector<double> PrivateParameters::numbers(const std::string& key) {
   XmlRpcValue& value = list(key, "a list of numbers");
   std::vector<double> result;
   for (int i = 0; i < value.size(); ++i) {
-    if (!is_number(value[i])) refuse(key, value, "a list of numbers");
+    if (!is_number(value[i])) refuse(element(key, i), value[i], "a number");
     result.push_back(to_number(value[i]));
   }
   return result;
@@ -116,7 +141,7 @@ std::vector<int> PrivateParameters::integers(const std::string& key) {
   XmlRpcValue& value = list(key, "a list of integers");
   std::vector<int> result;
   for (int i = 0; i < value.size(); ++i) {
-    if (value[i].getType() != XmlRpcValue::TypeInt) refuse(key, value, "a list of integers");
+    if (value[i].getType() != XmlRpcValue::TypeInt) refuse(element(key, i), value[i], "an integer");
     result.push_back(static_cast<int>(value[i]));
   }
   return result;

@@ -69,12 +69,32 @@ TEST(PrivateParameters, NamesTheMissingKey) {
 TEST(PrivateParameters, NamesKeyValueAndTypeWhenTheTypeIsWrong) {
   PrivateParameters values(sample());
   EXPECT_EQ(refusal([&] { (void)values.integer("rate"); }), "rate = 2.5, must be an integer");
-  EXPECT_EQ(refusal([&] { (void)values.number("planner"); }), "planner = elte, must be a number");
+  EXPECT_EQ(refusal([&] { (void)values.number("planner"); }),
+            "planner = \"elte\", must be a number");
   EXPECT_EQ(refusal([&] { (void)values.flag("nodes"); }), "nodes = 50, must be true or false");
   EXPECT_EQ(refusal([&] { (void)values.text("nodes"); }), "nodes = 50, must be a string");
   EXPECT_THAT(refusal([&] { (void)values.numbers("rate"); }), HasSubstr("rate = 2.5"));
   EXPECT_THAT(refusal([&] { (void)values.numbers("gains", 3); }), HasSubstr("list of 3 numbers"));
-  EXPECT_THAT(refusal([&] { (void)values.integers("gains"); }), HasSubstr("list of integers"));
+  EXPECT_THAT(refusal([&] { (void)values.integers("gains"); }),
+              HasSubstr("gains[1] = 0.5, must be an integer"));
+}
+
+// Fault 28: 3e-4 in YAML, which is a text there -> the message says so, and how to write it
+TEST(PrivateParameters, SaysWhyWhatLooksLikeANumberIsNone) {
+  XmlRpcValue one;
+  for (const char* word : {"3e-4", "1e3", "+5", "0.1"}) {
+    one["floor"] = std::string(word);
+    one["floors"][0] = 1.0;
+    one["floors"][1] = std::string(word);
+    PrivateParameters values(one);
+    EXPECT_THAT(refusal([&] { (void)values.number("floor"); }),
+                HasSubstr("floor = \"" + std::string(word) + "\" (a text: YAML 1.1"));
+    EXPECT_THAT(refusal([&] { (void)values.integer("floor"); }), HasSubstr("3.0e-4"));
+    EXPECT_THAT(refusal([&] { (void)values.numbers("floors"); }), HasSubstr("3.0e-4"));
+  }
+  one["floor"] = std::string("\x1b[2J");
+  EXPECT_EQ(refusal([&] { (void)PrivateParameters(one).number("floor"); }),
+            "floor = \"\\x1b[2J\", must be a number");
 }
 
 TEST(PrivateParameters, RefusesAKeyThatNothingReads) {

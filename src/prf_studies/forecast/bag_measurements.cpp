@@ -2,12 +2,11 @@
 #include "bag_measurements.hpp"
 
 #include <prf_msgs/TagDetectionArray.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
+#include <prf_ros/bag.hpp>
 #include <prf_ros/conversions.hpp>
 
 #include <optional>
@@ -45,17 +44,18 @@ std::optional<TagMeasurement> measurement_of(const prf_msgs::TagDetectionArray& 
 std::vector<TimedMeasurement> measurements_in_bag(const std::string& path,
                                                   const std::string& planning_frame, int tag_id) {
   std::vector<TimedMeasurement> measurements;
+  rosbag::Bag bag;
+  prf_ros::open_bag(bag, path);
   try {
-    const rosbag::Bag bag(path);
     tf2::BufferCore transforms(kWholeBag);
     std::vector<prf_msgs::TagDetectionArrayConstPtr> images;
     for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-      if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
+      if (const auto tf = prf_ros::message_in<tf2_msgs::TFMessage>(message)) {
         const bool is_static = ends_with(message.getTopic(), "tf_static");
         for (const auto& transform : tf->transforms) {
           transforms.setTransform(transform, "bag", is_static);
         }
-      } else if (const auto array = message.instantiate<prf_msgs::TagDetectionArray>()) {
+      } else if (const auto array = prf_ros::message_in<prf_msgs::TagDetectionArray>(message)) {
         images.push_back(array);
       }
     }
@@ -73,8 +73,8 @@ std::vector<TimedMeasurement> measurements_in_bag(const std::string& path,
         continue;  // before the first or after the last tf
       }
     }
-  } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument(path + " cannot be read: " + error.what());
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(path + ": " + error.what());
   }
   if (measurements.size() < kFewest) {
     throw std::invalid_argument(path + " has " + std::to_string(measurements.size()) +

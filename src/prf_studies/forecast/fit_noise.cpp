@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <nlopt.hpp>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "bag_measurements.hpp"
@@ -25,7 +26,9 @@ namespace {
 
 constexpr double kLongestGap = 1.0;  // s without measurement, after which the filter starts again
 constexpr double kFarthest = 1e4;    // factor that a parameter may change by
+constexpr double kNearBound = 1.01;  // times the bound or nearer: at it
 constexpr int kEvaluations = 300;
+constexpr double kLeastMotion = 2.0;  // of the target, as a multiple of the measurements' noise
 constexpr std::array<double, 5> kHorizons{0.1, 0.25, 0.5, 1.0, 2.0};  // s
 
 using Series = std::vector<std::vector<TimedMeasurement>>;
@@ -117,10 +120,15 @@ class Fit {
     search.set_ftol_abs(1e-5);
     search.set_maxeval(kEvaluations);
     double best = 0.0;
-    search.optimize(x, best);
+    has_converged_ = search.optimize(x, best) != nlopt::MAXEVAL_REACHED;
     if (isatty(STDERR_FILENO) != 0) std::cerr << "\n";
+    note_bounds(x);
     return at(x);
   }
+
+  [[nodiscard]] bool has_converged() const { return has_converged_; }
+  // The parameters that the search wanted to take beyond its bounds, each with the bound.
+  [[nodiscard]] const std::string& at_bounds() const { return at_bounds_; }
 
  private:
   static double objective(const std::vector<double>& x, std::vector<double>& /*gradient*/,
@@ -131,6 +139,17 @@ class Fit {
       std::fprintf(stderr, "\revaluation %d, log-likelihood %.4f ", fit.evaluations_, value);
     }
     return std::isfinite(value) ? value : -1e9;
+  }
+
+  void note_bounds(const std::vector<double>& x) {
+    std::ostringstream text;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (std::log(kFarthest) - std::abs(x[i]) > std::log(kNearBound)) continue;
+      text << (text.str().empty() ? "" : ", ")
+           << (i < keys_.size() ? keys_[i] : "measurement_scale") << " on its "
+           << (x[i] < 0.0 ? "lower bound, 1 / " : "upper bound, ") << kFarthest << " of the start";
+    }
+    at_bounds_ = text.str();
   }
 
   [[nodiscard]] PredictorFile at(const std::vector<double>& x) const {
@@ -145,7 +164,28 @@ class Fit {
   bool keeps_measurement_scale_;
   std::vector<std::string> keys_;
   int evaluations_ = 0;
+  bool has_converged_ = false;
+  std::string at_bounds_;
 };
+
+// Throws unless the target moves, by the rms about the mean of its positions, by more than the
+// noise that its measurements tell.
+void require_motion(const std::string& bag, const std::vector<TimedMeasurement>& measurements) {
+  const auto count = static_cast<double>(measurements.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& [time, measured] : measurements) mean += measured.position / count;
+  double motion = 0.0, noise = 0.0;
+  for (const auto& [time, measured] : measurements) {
+    motion += (measured.position - mean).squaredNorm() / count;
+    noise += measured.position_covariance.trace() / count;
+  }
+  if (std::sqrt(motion) > kLeastMotion * std::sqrt(noise)) return;
+  std::ostringstream text;
+  text << bag << ": the target does not move: its positions are " << 1e3 * std::sqrt(motion)
+       << " mm rms about their mean, must be more than " << kLeastMotion << " times the noise of "
+       << 1e3 * std::sqrt(noise) << " mm";
+  throw std::invalid_argument(text.str());
+}
 
 void print(const char* label, const Figures& figures) {
   std::printf("%-8s %14.4f %7.2f", label, figures.log_likelihood, figures.nis);
@@ -190,8 +230,10 @@ void run(const Options& options) {
   Series series;
   for (const std::string& bag : options.bags) {
     series.push_back(measurements_in_bag(bag, options.planning_frame, options.tag_id));
+    require_motion(bag, series.back());
   }
-  const PredictorFile after = Fit(before, series, options.measurement_scale.has_value()).run();
+  Fit fit(before, series, options.measurement_scale.has_value());
+  const PredictorFile after = fit.run();
   const Figures old_figures = follow(before, series, true);
   const Figures new_figures = follow(after, series, true);
 
@@ -204,6 +246,14 @@ void run(const Options& options) {
   }
   std::printf("%-24s %10.4g -> %.4g\n", "measurement_scale", before.measurement_scale,
               after.measurement_scale);
+  if (!fit.has_converged()) {
+    std::printf("stopped after %d evaluations, before it converged\n", kEvaluations);
+  }
+  if (!fit.at_bounds().empty()) {
+    throw std::invalid_argument("nothing is written: " + fit.at_bounds() +
+                                ". The bags do not determine it: give others, or start elsewhere "
+                                "with --from");
+  }
   write(options.out, after.text());
   const nlohmann::json json{{"horizons_s", kHorizons},
                             {"before", as_json(before, old_figures)},

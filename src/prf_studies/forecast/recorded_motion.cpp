@@ -3,31 +3,78 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <prf_core/table.hpp>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 namespace prf_studies {
 namespace {
 
 constexpr double kLongestGap = 0.05;          // s between rows
+constexpr double kFarthest = 100.0;           // m
 constexpr double kLateral = 7e-5;             // m at 1 m
 constexpr double kAlong = 7e-4;               // m at 1 m
 constexpr double kFloor = 3e-4;               // m
 constexpr double kOrientationSigma = 2.5e-3;  // rad
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
+// Which cells of a row are what.
+struct Layout {
+  std::array<std::size_t, 4> own{};     // time, x, y, z
+  std::vector<std::size_t> quaternion;  // x, y, z, w, or fewer
+  std::vector<std::size_t> camera;      // x, y, z, or fewer
+};
+
+Layout layout_of(const prf_core::TableReader& reader, const std::array<std::string, 4>& columns) {
+  Layout layout;
+  for (std::size_t i = 0; i < columns.size(); ++i) layout.own[i] = reader.column(columns[i]);
+  const std::string prefix = columns[1].substr(0, columns[1].size() - 1);
+  for (const char* name : {"qx", "qy", "qz", "qw"}) {
+    if (const auto found = reader.find(prefix + name)) layout.quaternion.push_back(*found);
+  }
+  for (const char* name : {"camera_x", "camera_y", "camera_z"}) {
+    if (const auto found = reader.find(name)) layout.camera.push_back(*found);
+  }
+  return layout;
 }
 
-std::optional<std::size_t> find(const std::vector<std::string>& header, const std::string& name) {
-  const auto found = std::find(header.begin(), header.end(), name);
-  if (found == header.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - header.begin());
+Eigen::Vector3d vector_at(const prf_core::TableReader& reader, const std::size_t* cells) {
+  return {reader.number(cells[0]), reader.number(cells[1]), reader.number(cells[2])};
+}
+
+void take_row(const prf_core::TableReader& reader, const Layout& layout, RecordedMotion& motion) {
+  const double t = reader.number(layout.own[0]);
+  if (!motion.time.empty() && !(t > motion.time.back())) {
+    reader.refuse("time does not rise, it is " + reader.cells()[layout.own[0]]);
+  }
+  const Eigen::Vector3d position = vector_at(reader, &layout.own[1]);
+  if (!(position.norm() <= kFarthest)) {
+    reader.refuse("the target is " + std::to_string(position.norm()) +
+                  " m away, must be at most 100 m; is it in mm?");
+  }
+  motion.time.push_back(t);
+  motion.position.push_back(position);
+  if (layout.quaternion.size() == 4) {
+    const Eigen::Vector3d imaginary = vector_at(reader, layout.quaternion.data());
+    const Eigen::Quaterniond turn(reader.number(layout.quaternion[3]), imaginary.x(), imaginary.y(),
+                                  imaginary.z());
+    if (!(turn.norm() > 0.5)) reader.refuse("its quaternion is no orientation");
+    motion.orientation.push_back(turn.normalized());
+  }
+  if (motion.time.size() > 1) return;
+  motion.camera = layout.camera.size() == 3 ? vector_at(reader, layout.camera.data())
+                                            : position - 0.6 * Eigen::Vector3d::UnitX();
+}
+
+// Nothing is known between rows that are far apart: with most of them so, nothing would be tracked.
+void require_dense(const RecordedMotion& motion, const std::string& path) {
+  std::size_t gaps = 0;
+  for (std::size_t i = 1; i < motion.time.size(); ++i) {
+    if (motion.time[i] - motion.time[i - 1] > kLongestGap) ++gaps;
+  }
+  if (2 * gaps < motion.time.size()) return;
+  throw std::invalid_argument(path + ": " + std::to_string(gaps) + " of " +
+                              std::to_string(motion.time.size()) +
+                              " rows are more than 0.05 s after the row before; is the time in s?");
 }
 
 }  // namespace
@@ -49,56 +96,14 @@ std::optional<prf_core::Pose> RecordedMotion::at(double t) const {
 }
 
 RecordedMotion read_motion(const std::string& path, const std::array<std::string, 4>& columns) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument(path + " cannot be read");
+  std::ifstream file = prf_core::open_table(path);
+  prf_core::TableReader reader(file, path);
+  reader.read_header(columns[0] + "," + columns[1] + "," + columns[2] + "," + columns[3]);
+  const Layout layout = layout_of(reader, columns);
   RecordedMotion motion;
-  std::array<std::size_t, 4> own{};
-  std::vector<std::size_t> camera;
-  std::vector<std::size_t> quaternion;
-  std::size_t count = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    const auto cells = cells_of(line);
-    if (count == 0) {
-      count = cells.size();
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const auto found = find(cells, columns[i]);
-        if (!found) throw std::invalid_argument(path + " has no column " + columns[i]);
-        own[i] = *found;
-      }
-      const std::string prefix = columns[1].substr(0, columns[1].size() - 1);
-      for (const char* name : {"qx", "qy", "qz", "qw"}) {
-        if (const auto found = find(cells, prefix + name)) quaternion.push_back(*found);
-      }
-      for (const char* name : {"camera_x", "camera_y", "camera_z"}) {
-        if (const auto found = find(cells, name)) camera.push_back(*found);
-      }
-      continue;
-    }
-    try {
-      const auto number = [&](std::size_t i) { return std::stod(cells.at(i)); };
-      const double t = number(own[0]);
-      if (!motion.time.empty() && !(t > motion.time.back())) {
-        throw std::invalid_argument("time does not rise");
-      }
-      motion.time.push_back(t);
-      motion.position.emplace_back(number(own[1]), number(own[2]), number(own[3]));
-      if (quaternion.size() == 4) {
-        motion.orientation.push_back(
-            Eigen::Quaterniond(number(quaternion[3]), number(quaternion[0]), number(quaternion[1]),
-                               number(quaternion[2]))
-                .normalized());
-      }
-      if (motion.time.size() > 1) continue;
-      motion.camera = camera.size() == 3
-                          ? Eigen::Vector3d(number(camera[0]), number(camera[1]), number(camera[2]))
-                          : motion.position[0] - 0.6 * Eigen::Vector3d::UnitX();
-    } catch (const std::exception& error) {
-      throw std::invalid_argument(path + ", row " + std::to_string(motion.time.size() + 1) + ": " +
-                                  error.what());
-    }
-  }
-  if (motion.time.size() < 2) throw std::invalid_argument(path + " has fewer than 2 rows");
+  while (reader.next()) take_row(reader, layout, motion);
+  if (motion.time.size() < 2) throw std::invalid_argument(path + ": has fewer than 2 rows");
+  require_dense(motion, path);
   return motion;
 }
 

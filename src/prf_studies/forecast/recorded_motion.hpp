@@ -26,10 +26,10 @@ struct RecordedMotion {
   [[nodiscard]] std::optional<prf_core::Pose> at(double t) const;
 };
 
-// CSV with comment lines (#) and a header. `columns` are the names of time, x, y and z. Columns
+// A table of prf_core/table.hpp. `columns` are the names of time, x, y and z. Columns
 // with qx, qy, qz and qw in place of the x of that name are the orientation, if there are any. The
 // camera is at camera_x, camera_y, camera_z of the first row, else 0.6 m before the target. Throws
-// std::invalid_argument with file and reason.
+// std::invalid_argument with file and reason; also for millimetres and for a time that is not in s.
 [[nodiscard]] RecordedMotion read_motion(const std::string& path,
                                          const std::array<std::string, 4>& columns);
 

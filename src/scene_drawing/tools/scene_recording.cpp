@@ -3,14 +3,14 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <opencv2/core.hpp>
+#include <prf_ros/bag.hpp>
 #include <prf_ros/conversions.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -36,20 +36,20 @@ std::int64_t to_ns(const ros::Time& stamp) { return static_cast<std::int64_t>(st
 class Reader {
  public:
   void read(const rosbag::MessageInstance& instance) {
-    if (const auto joints = instance.instantiate<sensor_msgs::JointState>()) {
+    if (const auto joints = prf_ros::message_in<sensor_msgs::JointState>(instance)) {
       Tick& tick = ticks_[to_ns(joints->header.stamp)];
-      for (std::size_t i = 0; i < joints->name.size(); ++i) {
-        tick.state.joints[joints->name[i]] = joints->position.at(i);
+      for (std::size_t i = 0; i < std::min(joints->name.size(), joints->position.size()); ++i) {
+        tick.state.joints[joints->name[i]] = joints->position[i];
       }
       tick.parts |= kJoints;
-    } else if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+    } else if (const auto odometry = prf_ros::message_in<nav_msgs::Odometry>(instance)) {
       Tick& tick = ticks_[to_ns(odometry->header.stamp)];
       const bool is_base = odometry->child_frame_id == "base_link";
       (is_base ? tick.state.base : tick.state.platform) =
           prf_ros::to_core(odometry->pose.pose).isometry();
       tick.parts |= is_base ? kBase : kPlatform;
       on_cart_ = on_cart_ || odometry->child_frame_id == "floor";
-    } else if (const auto tag = instance.instantiate<geometry_msgs::PoseStamped>()) {
+    } else if (const auto tag = prf_ros::message_in<geometry_msgs::PoseStamped>(instance)) {
       Tick& tick = ticks_[to_ns(tag->header.stamp)];
       tick.tag = prf_ros::to_core(tag->pose).isometry();
       tick.parts |= kTag;
@@ -93,21 +93,22 @@ const SceneState& SceneRecording::at(double time) const {
 
 SceneRecording read_scene(const std::string& bag_path) {
   rosbag::Bag bag;
-  try {
-    bag.open(bag_path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument(bag_path + ": cannot be read: " + error.what());
-  }
+  prf_ros::open_bag(bag, bag_path);
   rosbag::View view(bag, rosbag::TopicQuery({"/joint_states", "/ground_truth/platform",
                                              "/ground_truth/base", "/ground_truth/tag"}));
   Reader reader;
-  for (const rosbag::MessageInstance& instance : view) reader.read(instance);
+  try {
+    for (const rosbag::MessageInstance& instance : view) reader.read(instance);
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(bag_path + ": " + error.what());
+  }
   return reader.finish(bag_path);
 }
 
 SceneRenderer make_renderer(const std::string& urdf_path, const camera_sim::TargetBox& target) {
   std::ifstream file(urdf_path);
-  if (!file) throw std::invalid_argument("cannot read " + urdf_path);
+  if (!file)
+    throw std::invalid_argument(urdf_path + ": cannot be read, must be the URDF of the robot");
   std::ostringstream urdf;
   urdf << file.rdbuf();
   return {urdf.str(), target};

@@ -4,17 +4,30 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
+#include <prf_core/bounds.hpp>
+#include <prf_core/quoted.hpp>
+#include <prf_core/require.hpp>
 #include <stdexcept>
 
 namespace v60_gait {
 namespace {
 
+using prf_core::quoted;
+using prf_core::require_between;
+
 constexpr double kInertiaTolerance = 1e-9;  // relative
+// Beyond every part of a robot that walks, and small enough that sums and squares stay finite.
+constexpr double kHeaviest = 1e4;        // kg
+constexpr double kMostInertia = 1e5;     // kg m^2
+constexpr double kLargestPart = 100.0;   // m, of shapes and from one frame to the next
+constexpr double kSmallestPart = 1e-6;   // m
+constexpr double kStrongestJoint = 1e6;  // Nm, rad/s
 
 Eigen::Vector3d to_eigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-Eigen::Isometry3d to_eigen(const urdf::Pose& pose) {
+// `what` names the pose's owner in a refusal.
+Eigen::Isometry3d to_eigen(const urdf::Pose& pose, const std::string& what) {
+  prf_core::require_within("origin of " + what, to_eigen(pose.position), kLargestPart, "m");
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   const urdf::Rotation& r = pose.rotation;
   result.linear() = Eigen::Quaterniond(r.w, r.x, r.y, r.z).toRotationMatrix();
@@ -27,13 +40,25 @@ Eigen::Matrix3d point_inertia(double mass, const Eigen::Vector3d& d) {
   return mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
 }
 
-void add_inertial(const urdf::Inertial& inertial, const Eigen::Isometry3d& link_pose,
-                  RigidBody& body) {
-  const Eigen::Isometry3d pose = link_pose * to_eigen(inertial.origin);
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+// Each part by itself: in the sum over a body a negative one would pass.
+void add_inertial(const urdf::Inertial& inertial, const std::string& link,
+                  const Eigen::Isometry3d& link_pose, RigidBody& body) {
+  const std::string what = "link " + quoted(link);
+  const Eigen::Isometry3d pose = link_pose * to_eigen(inertial.origin, "the inertia of " + what);
   Eigen::Matrix3d inertia;
   inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
       inertial.ixy, inertial.iyy, inertial.iyz,         //
       inertial.ixz, inertial.iyz, inertial.izz;
+  require_between("mass of " + what, inertial.mass, 0.0, kHeaviest, "kg");
+  prf_core::require_within("inertia of " + what, inertia.reshaped().eval(), kMostInertia, "kg m2");
+  const double least = principal_moments(inertia)[0];
+  prf_core::require(least >= -kInertiaTolerance * inertia.trace(),
+                    "least principal moment of inertia of " + what, least, "0 kg m2 or above");
   const double mass = body.mass + inertial.mass;
   if (mass == 0.0) return;
   const Eigen::Vector3d centre =
@@ -45,32 +70,40 @@ void add_inertial(const urdf::Inertial& inertial, const Eigen::Isometry3d& link_
   body.centre_of_mass = centre;
 }
 
+double checked_size(const std::string& what, double size) {
+  require_between(what, size, kSmallestPart, kLargestPart, "m");
+  return size;
+}
+
 CollisionPrimitive to_primitive(const urdf::Collision& collision, const std::string& link,
                                 const Eigen::Isometry3d& link_pose) {
+  const std::string what = "a collision shape of link " + quoted(link);
   CollisionPrimitive primitive;
   primitive.link = link;
-  primitive.pose = link_pose * to_eigen(collision.origin);
+  primitive.pose = link_pose * to_eigen(collision.origin, what);
+  if (!collision.geometry) throw std::invalid_argument(what + " is missing, must be given");
   switch (collision.geometry->type) {
     case urdf::Geometry::SPHERE: {
       const auto& sphere = dynamic_cast<const urdf::Sphere&>(*collision.geometry);
       primitive.kind = CollisionPrimitive::Kind::kSphere;
-      primitive.size = {sphere.radius, 0.0, 0.0};
+      primitive.size = {checked_size("radius of " + what, sphere.radius), 0.0, 0.0};
       return primitive;
     }
     case urdf::Geometry::BOX: {
       primitive.kind = CollisionPrimitive::Kind::kBox;
       primitive.size = to_eigen(dynamic_cast<const urdf::Box&>(*collision.geometry).dim);
+      for (const double side : primitive.size) checked_size("side of " + what, side);
       return primitive;
     }
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(*collision.geometry);
       primitive.kind = CollisionPrimitive::Kind::kCylinder;
-      primitive.size = {cylinder.radius, 0.0, cylinder.length};
+      primitive.size = {checked_size("radius of " + what, cylinder.radius), 0.0,
+                        checked_size("length of " + what, cylinder.length)};
       return primitive;
     }
     default:
-      throw std::invalid_argument("collision shape of link '" + link +
-                                  "' is a mesh, must be a sphere, box or cylinder");
+      throw std::invalid_argument(what + " is a mesh, must be a sphere, box or cylinder");
   }
 }
 
@@ -79,11 +112,21 @@ RobotJoint to_joint(const urdf::Joint& joint, int body) {
   result.name = joint.name;
   result.body = body;
   result.has_position_limits = joint.type == urdf::Joint::REVOLUTE;
+  const std::string what = "joint " + quoted(joint.name);
+  if (result.has_position_limits && !joint.limits) {
+    throw std::invalid_argument(what + " is revolute without limits, must have them");
+  }
   if (joint.limits) {
-    result.lower = joint.limits->lower;
-    result.upper = joint.limits->upper;
-    result.max_velocity = joint.limits->velocity;
-    result.max_effort = joint.limits->effort;
+    const urdf::JointLimits& limits = *joint.limits;
+    constexpr double kMost = prf_core::kMaxJointPosition;
+    require_between("lower limit of " + what, limits.lower, -kMost, kMost, "rad");
+    require_between("upper limit of " + what, limits.upper, limits.lower, kMost, "rad");
+    require_between("velocity limit of " + what, limits.velocity, 0.0, kStrongestJoint, "rad/s");
+    require_between("effort limit of " + what, limits.effort, 0.0, kStrongestJoint, "Nm");
+    result.lower = limits.lower;
+    result.upper = limits.upper;
+    result.max_velocity = limits.velocity;
+    result.max_effort = limits.effort;
   }
   return result;
 }
@@ -93,13 +136,12 @@ void grow(const urdf::Link& link, int body, const Eigen::Isometry3d& link_pose, 
 void add_moving_body(const urdf::Joint& joint, const urdf::Link& link, int parent,
                      const Eigen::Isometry3d& parent_link_pose, RigidTree& tree) {
   const Eigen::Vector3d axis = to_eigen(joint.axis);
-  if (!(axis.norm() > 0.0)) {
-    throw std::invalid_argument("joint '" + joint.name + "' has an axis of zero length");
-  }
+  require_between("length of the axis of joint " + quoted(joint.name), axis.norm(), 1e-6, 1e6);
   RigidBody body;
   body.name = link.name;
   body.parent = parent;
-  body.joint_in_parent = parent_link_pose * to_eigen(joint.parent_to_joint_origin_transform);
+  body.joint_in_parent = parent_link_pose * to_eigen(joint.parent_to_joint_origin_transform,
+                                                     "joint " + quoted(joint.name));
   body.axis = axis.normalized();
   const int index = static_cast<int>(tree.bodies.size());
   tree.bodies.push_back(body);
@@ -110,7 +152,7 @@ void add_moving_body(const urdf::Joint& joint, const urdf::Link& link, int paren
 void grow(const urdf::Link& link, int body, const Eigen::Isometry3d& link_pose, RigidTree& tree) {
   tree.links[link.name] = {body, link_pose};
   const auto index = static_cast<std::size_t>(body);
-  if (link.inertial) add_inertial(*link.inertial, link_pose, tree.bodies[index]);
+  if (link.inertial) add_inertial(*link.inertial, link.name, link_pose, tree.bodies[index]);
   for (const auto& collision : link.collision_array) {
     tree.bodies[index].primitives.push_back(to_primitive(*collision, link.name, link_pose));
   }
@@ -119,33 +161,55 @@ void grow(const urdf::Link& link, int body, const Eigen::Isometry3d& link_pose, 
     const urdf::Link& child = *link.child_links[i];
     switch (joint.type) {
       case urdf::Joint::FIXED:
-        grow(child, body, link_pose * to_eigen(joint.parent_to_joint_origin_transform), tree);
+        grow(child, body,
+             link_pose *
+                 to_eigen(joint.parent_to_joint_origin_transform, "joint " + quoted(joint.name)),
+             tree);
         break;
       case urdf::Joint::REVOLUTE:
       case urdf::Joint::CONTINUOUS:
         add_moving_body(joint, child, body, link_pose, tree);
         break;
       default:
-        throw std::invalid_argument("joint '" + joint.name +
-                                    "' must be revolute, continuous or fixed");
+        throw std::invalid_argument("joint " + quoted(joint.name) +
+                                    " must be revolute, continuous or fixed");
     }
   }
 }
 
 void require_solid(const RigidBody& body) {
-  if (!(body.mass > 0.0)) {
-    throw std::invalid_argument("mass of link '" + body.name + "' is " + std::to_string(body.mass) +
-                                ", must be above 0");
-  }
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const std::string what = "link " + quoted(body.name);
+  prf_core::require(body.mass > 0.0, "mass of " + what, body.mass, "above 0 kg");
+  const Eigen::Vector3d moments = principal_moments(body.inertia);
   const double slack = kInertiaTolerance * moments[2];
   if (!(moments[0] > 0.0) || !(moments[0] + moments[1] >= moments[2] - slack)) {
-    throw std::invalid_argument("inertia of link '" + body.name +
-                                "' is of no solid: principal moments must be positive and none "
+    throw std::invalid_argument("inertia of " + what +
+                                " is of no solid: principal moments must be positive and none "
                                 "above the sum of the others");
   }
+}
+
+}  // namespace
+
+namespace {
+
+std::size_t count_of(const std::string& word, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+// urdfdom drops an inertia with a number that it cannot read, and goes on without the mass.
+void require_all_inertias(const urdf::ModelInterface& model, std::string urdf_xml) {
+  for (auto from = urdf_xml.find("<!--"); from != std::string::npos; from = urdf_xml.find("<!--")) {
+    const auto to = urdf_xml.find("-->", from);
+    urdf_xml.erase(from, to == std::string::npos ? to : to + 3 - from);
+  }
+  std::size_t read = 0;
+  for (const auto& link : model.links_) read += link.second->inertial ? 1 : 0;
+  const std::size_t given = count_of("<inertial", urdf_xml);
+  prf_core::require(read >= given, "readable <inertial> of the robot description", read,
+                    std::to_string(given) + ", all that it has: is a number not finite?");
 }
 
 }  // namespace
@@ -155,6 +219,7 @@ RigidTree rigid_tree_from_urdf(const std::string& urdf_xml, bool fixed_base) {
   if (!model || !model->getRoot()) {
     throw std::invalid_argument("robot description is not a valid URDF");
   }
+  require_all_inertias(*model, urdf_xml);
   RigidTree tree;
   tree.bodies.emplace_back();
   tree.bodies.front().name = model->getRoot()->name;

@@ -12,14 +12,14 @@ def _row(pose):
 
 def _messages(path, topic):
     try:
-        import rosbag
+        from prf_msgs import bags
     except ImportError as error:
         raise ImportError(f"{path}: a bag is read with rosbag of ROS 1, which this Python has not ({error})") from None
     try:
-        with rosbag.Bag(path) as bag:
+        with bags.opened(path) as bag:
             found = [message for _, message, _ in bag.read_messages(topics=["/" + topic.lstrip("/")])]
-    except rosbag.ROSBagException as error:
-        raise ValueError(f"{path}: {error}") from None
+    except bags.BagError as error:
+        raise ValueError(str(error)) from None
     if not found:
         raise ValueError(f"{path}: nothing on topic '{topic}'")
     return found

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <prf_core/table.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -27,27 +29,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> fields;
-  for (auto end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
-    fields.push_back(trimmed(text.substr(0, end)));
-    text.remove_prefix(end + 1);
-  }
-  fields.push_back(trimmed(text));
-  return fields;
-}
-
 // What has been read so far, and where, so that every refusal says file and line.
 class Reader {
  public:
-  Reader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
+  Reader(std::istream& in, const std::string& name)
+      : table_(in, name, [this](std::string_view comment) { take_metadata(comment); }),
+        name_(name) {}
 
   Demonstration read() {
-    for (std::string line; std::getline(in_, line);) {
-      ++line_number_;
-      take(trimmed(line));
-    }
-    if (in_.bad()) refuse_file("cannot be read to its end");
+    while (table_.next()) take_row_or_header();
     if (!has_header_) refuse_file("has no header line '" + std::string(kHeader) + "'");
     for (const char* key : {"frame", "child_frame", "target_pose"}) {
       if (notes_.count(key) == 0) refuse_file("has no line '# " + std::string(key) + ": ...'");
@@ -63,16 +53,13 @@ class Reader {
   }
 
  private:
-  void take(std::string_view line) {
-    if (line.empty()) return;
-    if (line.front() == '#') {
-      take_metadata(line.substr(1));
-    } else if (has_header_) {
-      take_row(line);
-    } else if (line == kHeader) {
-      has_header_ = true;
-    } else {
-      refuse("header is '" + shown(line, 60) + "', must be '" + std::string(kHeader) + "'");
+  void take_row_or_header() {
+    if (has_header_) return take_row();
+    has_header_ =
+        std::equal(table_.cells().begin(), table_.cells().end(), kColumns.begin(), kColumns.end());
+    if (!has_header_) {
+      refuse("header is '" + shown(trimmed(table_.text()), 60) + "', must be '" +
+             std::string(kHeader) + "'");
     }
   }
 
@@ -99,15 +86,17 @@ class Reader {
     return pose(number.data());
   }
 
-  void take_row(std::string_view line) {
-    const std::vector<std::string_view> fields = split(line, ',');
+  void take_row() {
+    const std::vector<std::string>& fields = table_.cells();
     if (fields.size() != kColumns.size()) {
       refuse("has " + std::to_string(fields.size()) + " columns, must have " +
              std::to_string(kColumns.size()));
     }
     std::array<double, 8> number{};
     for (std::size_t i = 0; i < number.size(); ++i) {
-      number[i] = number_from(fields[i], kColumns[i]);
+      const auto value = table_.value(i);
+      if (!value) refuse_number(fields[i], kColumns[i]);
+      number[i] = *value;
     }
     check_time(number[0]);
     samples_.push_back({number[0], pose(&number[1])});
@@ -136,23 +125,26 @@ class Reader {
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      refuse("column '" + std::string(column) + "' is '" + shown(field, 60) +
-             "', must be a finite number");
+      refuse_number(field, column);
     }
     return value;
   }
 
+  [[noreturn]] void refuse_number(std::string_view field, const char* column) const {
+    refuse("column '" + std::string(column) + "' is '" + shown(field, 60) +
+           "', must be a finite number");
+  }
+
   [[noreturn]] void refuse(const std::string& what) const {
-    throw std::invalid_argument(name_ + ":" + std::to_string(line_number_) + ": " + what);
+    throw std::invalid_argument(name_ + ":" + std::to_string(table_.line()) + ": " + what);
   }
 
   [[noreturn]] void refuse_file(const std::string& what) const {
     throw std::invalid_argument(name_ + ": " + what);
   }
 
-  std::istream& in_;
+  prf_core::TableReader table_;
   std::string name_;
-  std::size_t line_number_ = 0;
   bool has_header_ = false;
   Demonstration::Notes notes_;  // every `# key: value` line
   Pose target_;
@@ -185,8 +177,7 @@ void write(const Demonstration& demonstration, std::ostream& out) {
 }  // namespace
 
 Demonstration load_demonstration(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument(path + ": cannot be read");
+  std::ifstream file = prf_core::open_table(path);
   return read_demonstration(file, path);
 }
 

@@ -40,7 +40,11 @@ CurrentSkill::Skill CurrentSkill::load(const DemonstrationRequest& request, cons
   const std::string name = shown(file);
   require_file(name, real_file);
   std::ifstream stream(real_file);
-  if (!stream) throw std::invalid_argument(name + ": cannot be read");
+  if (!stream) {
+    std::error_code error;
+    throw std::invalid_argument(
+        name + (fs::exists(real_file, error) ? ": cannot be read" : ": there is no such file"));
+  }
   const Demonstration demonstration = read_demonstration(stream, name);
   if (demonstration.frame() != files_.frame) {
     throw std::invalid_argument("frame is '" + files_.frame + "', must be '" +

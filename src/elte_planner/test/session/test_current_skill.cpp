@@ -88,7 +88,7 @@ TEST_F(CurrentSkillTest, StaysWhenTheRequestIsRefusedWithTheReadersReason) {
   const SkillSession* const before = &skill.session();
   std::uint32_t number = 1;
   for (const auto& [name, reason] :
-       {std::pair("missing.csv", ": cannot be read"),
+       {std::pair("missing.csv", ": there is no such file"),
         std::pair("bad.csv", ":1: header is 'time,x'"),
         std::pair("elsewhere.csv", "must be 'world'"), std::pair("fifo", ": is no file"),
         std::pair(".", ": is no file")}) {

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <prf_core/quoted.hpp>
+#include <prf_core/table.hpp>
 #include <stdexcept>
 #include <utility>
-
-#include "readable_file.hpp"
 
 namespace platform_sim {
 namespace {
@@ -20,90 +18,49 @@ constexpr Eigen::Index kFewestRows = 4;
 constexpr double kLargestValue = 1e4;   // m or rad
 constexpr double kLatestTime = 1e10;    // s, the seconds since 1970 included
 constexpr double kShortestStep = 1e-4;  // s
-constexpr double kLongestStep = 60.0;   // s
-
-[[noreturn]] void refuse(const std::string& path, int line, const std::string& what) {
-  throw std::invalid_argument(path + ", line " + std::to_string(line) + ": " + what);
-}
-
-std::vector<std::string> split(std::string line) {
-  line.erase(std::remove(line.begin(), line.end(), '\r'), line.end());
-  std::vector<std::string> words;
-  std::istringstream stream(line);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
-}
-
-double to_number(const std::string& word) {
-  std::size_t used = 0;
-  double value = std::nan("");
-  try {
-    value = std::stod(word, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  return used == word.size() ? value : std::nan("");
-}
+constexpr double kLongestStep = 2.0;    // s; longer ones are in another unit, or no motion
 
 struct Table {
   std::vector<std::string> columns;  // the first one is time
   std::vector<std::vector<double>> rows;
 };
 
-std::vector<double> read_row(const Table& table, const std::string& line, const std::string& path,
-                             int number) {
-  const std::vector<std::string> words = split(line);
-  if (words.size() != table.columns.size()) {
-    refuse(
-        path, number,
-        std::to_string(words.size()) + " values, must be " + std::to_string(table.columns.size()));
+std::vector<double> read_row(const prf_core::TableReader& reader,
+                             const std::vector<std::vector<double>>& before) {
+  const std::size_t count = reader.columns().size();
+  const std::vector<std::string>& words = reader.cells();
+  if (words.size() != count) {
+    reader.refuse(std::to_string(words.size()) + " values, must be " + std::to_string(count));
   }
   std::vector<double> row;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    row.push_back(to_number(words[i]));
-    if (!std::isfinite(row.back())) {
-      refuse(path, number, table.columns[i] + " = '" + words[i] + "', must be a finite number");
+  for (std::size_t i = 0; i < count; ++i) {
+    row.push_back(reader.number(i));
+    if (std::abs(row[i]) > (i == 0 ? kLatestTime : kLargestValue)) {
+      reader.refuse(reader.columns()[i] + " = " + words[i] + ", is beyond every bound");
     }
   }
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const double bound = i == 0 ? kLatestTime : kLargestValue;
-    if (std::abs(row[i]) > bound) {
-      refuse(path, number, table.columns[i] + " = " + words[i] + ", is beyond every bound");
-    }
-  }
-  if (table.rows.empty()) return row;
-  const double step = row[0] - table.rows.back()[0];
+  if (before.empty()) return row;
+  const double step = row[0] - before.back()[0];
   if (!(step > 0.0)) {
-    refuse(path, number,
-           "time = " + words[0] + ", must be above the row before's " +
-               std::to_string(table.rows.back()[0]));
+    reader.refuse("time = " + words[0] + ", must be above the row before's " +
+                  std::to_string(before.back()[0]));
   }
   if (step < kShortestStep || step > kLongestStep) {
-    refuse(path, number,
-           "time = " + words[0] + ", must be 0.0001 .. 60 s after the row before's " +
-               std::to_string(table.rows.back()[0]));
+    reader.refuse("time = " + words[0] + ", must be 0.0001 .. 2 s after the row before's " +
+                  std::to_string(before.back()[0]) + "; is it in s?");
   }
   return row;
 }
 
 Table read_table(const std::string& path) {
-  require_readable_file(path);
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument(path + " cannot be read");
-  Table table;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (line.empty() || line[0] == '#') continue;
-    if (!table.columns.empty()) {
-      table.rows.push_back(read_row(table, line, path, number));
-      continue;
-    }
-    table.columns = split(line);
-    if (table.columns.size() < 2 || table.columns[0] != "time") {
-      refuse(path, number, "the header is '" + line + "', must be time,<name>,...");
-    }
+  std::ifstream file = prf_core::open_table(path);
+  prf_core::TableReader reader(file, path);
+  reader.read_header("time,<name>,...");
+  Table table{reader.columns(), {}};
+  if (table.columns.size() < 2 || table.columns[0] != "time") {
+    reader.refuse("the header is " + prf_core::quoted(reader.text()) + ", must be time,<name>,...");
   }
+  while (reader.next()) table.rows.push_back(read_row(reader, table.rows));
   if (table.rows.size() < static_cast<std::size_t>(kFewestRows) ||
       table.rows.back()[0] - table.rows.front()[0] < kTurnDuration) {
     throw std::invalid_argument(path + " is too short, must have 4 rows over 1 s");

@@ -112,7 +112,7 @@ class DemonstrationSwitchNode(GoalTest):
         self.assertEqual(self.result(first)[1].code, ExecuteSkillResult.DONE)
         self.check_end(FIRST)
 
-        for name, reason in (("missing.csv", "missing.csv: cannot be read"),
+        for name, reason in (("missing.csv", "missing.csv: there is no such file"),
                              ("bad.csv", "bad.csv:1: header is 'time,x'")):
             refused = self.send(demonstration=name)
             self.assertEqual(self.play(0.2).state, ExecutionProgress.DONE)

@@ -189,7 +189,7 @@ class SkillActionNode(GoalTest):
         self.play(0.1)
         state, result = self.result(handle)
         self.assertEqual((state, result.code), (GoalStatus.REJECTED, ExecuteSkillResult.REFUSED))
-        self.assertEqual(result.text, "missing.csv: cannot be read")
+        self.assertEqual(result.text, "missing.csv: there is no such file")
         progress = self.play(0.1)
         self.assertEqual((progress.demonstration, progress.demonstration_switch), ("side.csv", 1))
         self.assertEqual(progress.state, ExecutionProgress.DONE)
@@ -250,7 +250,7 @@ class SkillActionNode(GoalTest):
                 rospy.rostime.wallsleep(0.05)
             out, error = refused.communicate(timeout=PATIENCE)
             self.assertEqual(refused.returncode, 2, error)
-            self.assertIn("REFUSED: missing.csv: cannot be read", out)
+            self.assertIn("REFUSED: missing.csv: there is no such file", out)
 
 
 if __name__ == "__main__":

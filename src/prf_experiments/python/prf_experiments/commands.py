@@ -5,6 +5,7 @@ import argparse
 from prf_experiments import files
 from prf_experiments.judge import invariants, judge, reaction, timeline
 from prf_experiments.record import digest, recording
+from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration
 
@@ -22,7 +23,7 @@ def _exit_code(verdict, found):
 
 
 def judge_main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="judge", description=judge.__doc__, epilog="Exit 0 for S, P and F, 3 for INVALID, "
         "4 for S, P and F with a broken invariant.",
         formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -47,7 +48,7 @@ def judge_main(words: list[str]) -> int:
 
 
 def inspect_main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="inspect", description="Prints a trial as a timeline: phases and reasons, detections, "
         "contacts, what the arm could not do, solve times, drops.")
     parser.add_argument("bag")
@@ -68,7 +69,7 @@ def inspect_main(words: list[str]) -> int:
 
 def report_main(words: list[str]) -> int:
     from prf_experiments.report import pictures, report  # matplotlib takes its time
-    parser = argparse.ArgumentParser(prog="report", description="Draws the report of a trial.")
+    parser = args.Parser(prog="report", description="Draws the report of a trial.")
     parser.add_argument("bag")
     parser.add_argument("out", help="HTML file to write")
     parser.add_argument("--demonstration", default=None,
@@ -92,7 +93,7 @@ def report_main(words: list[str]) -> int:
 
 
 def digest_main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="bag_digest", description=digest.__doc__,
         epilog="With two bags: exit 0 when they are identical, 1 when they are not.",
         formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -17,6 +17,11 @@ namespace prf_perception {
 inline constexpr int kSmallestImage = 32;
 inline constexpr int kLargestImage = 8192;
 
+enum class LensModel {
+  kBrown,        // camera_info's plumb_bob and rational_polynomial
+  kEquidistant,  // camera_info's equidistant: a fisheye
+};
+
 struct CameraIntrinsics {
   double fx = 0.0;
   double fy = 0.0;
@@ -24,13 +29,17 @@ struct CameraIntrinsics {
   double cy = 0.0;
   int width = 0;
   int height = 0;
-  std::array<double, 5> distortion{};  // k1, k2, p1, p2, k3
+  // Brown: k1, k2, p1, p2, k3, k4, k5, k6. Equidistant: k1, k2, k3, k4. The rest is zero.
+  std::array<double, 8> distortion{};
+  LensModel lens = LensModel::kBrown;
 
+  // Whether the image differs from the ideal pinhole's; an equidistant lens always does.
   [[nodiscard]] bool distorts() const;
 
   // Throws std::invalid_argument with name, value and bound for what no camera has. Sizes are
   // 32 .. 8192 px, focal lengths 0.1 .. 100 times the image's size, the principal point is at most
-  // the image's size outside the image, and the lens does not fold the image over itself.
+  // 8192 px outside the image (which may be a window of a larger one), and the lens does not fold
+  // the image over itself.
   void validate() const;
 };
 

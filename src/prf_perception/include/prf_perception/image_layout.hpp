@@ -10,15 +10,15 @@ namespace prf_perception {
 
 // As sensor_msgs/Image describes an image.
 struct ImageLayout {
-  std::string encoding;      // mono8, bgr8 or rgb8
+  std::string encoding;      // of sensor_msgs/image_encodings.h, of the list in validate()
   std::uint32_t width = 0;   // px
   std::uint32_t height = 0;  // px
   std::uint32_t step = 0;    // bytes from one row to the next
   std::uint64_t bytes = 0;   // of the data
 
-  // Throws std::invalid_argument with name, value and bound unless the encoding is one of the
-  // above, width and height are 32 .. 8192 px, a row fits into the step, and the data have exactly
-  // height steps.
+  // Throws std::invalid_argument with name, value and bound unless the encoding is mono, bgr, rgb,
+  // bgra, rgba or bayer of 8 or 16 bits, yuv422, or 8UC1; width and height are 32 .. 8192 px, a row
+  // fits into the step, and the data have exactly height steps.
   void validate() const;
 };
 

@@ -91,6 +91,10 @@ class FrameChain {
     [[nodiscard]] std::vector<const Frame*> moving() const;
   };
 
+  // Why there is no transform at the stamp: by how much the image is ahead of tf, or before it.
+  [[nodiscard]] static std::string ahead_of_tf(const Chain& between, prf_core::Stamp stamp);
+  [[nodiscard]] static std::string before_tf(const Chain& between, prf_core::Stamp stamp);
+
   [[nodiscard]] std::vector<std::string> ancestors(const std::string& frame) const;
   [[nodiscard]] std::optional<Chain> chain(const std::string& camera_frame) const;
   // Of the moving frames of the planning frame's tree.

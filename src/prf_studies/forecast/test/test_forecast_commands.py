@@ -48,7 +48,7 @@ def write_motion(path):
             file.write(",".join(f"{number:.9g}" for number in numbers) + "\n")
 
 
-def write_bag(path, images):
+def write_bag(path, images, place=wave):
     camera = TransformStamped(child_frame_id=CAMERA)
     camera.header.frame_id, camera.transform.rotation.w = BASE, 1.0
     with rosbag.Bag(path, "w") as bag:
@@ -58,7 +58,7 @@ def write_bag(path, images):
             array, tag = TagDetectionArray(), TagDetection(family="tag36h11", id=0)
             array.header.stamp, array.header.frame_id = stamp, CAMERA
             position = tag.pose.pose.position
-            position.x, position.y, position.z = wave(k / 30)
+            position.x, position.y, position.z = place(k / 30)
             tag.pose.pose.orientation.w = 1.0
             tag.pose.covariance = [1e-6 if i % 7 == 0 else 0.0 for i in range(36)]
             array.detections.append(tag)
@@ -182,6 +182,41 @@ class Commands(unittest.TestCase):
             written = yaml.safe_load(file)
         self.assertEqual(set(written), {"predictor", "acceleration_density", "measurement_scale"})
         self.figures("fit_noise", self.bag, "--from", out)
+
+    # Fault 54: a target that does not move, a fit that ends on its bounds -> refused, nothing is written
+    def test_fit_noise_refuses_what_the_bag_does_not_determine(self):
+        still, out = self.path("still.bag"), self.path("unwritten.yaml")
+        write_bag(still, 90, lambda t: (0.9, 0.0, 0.3))
+        self.assert_refused("fit_noise", [still, "--out", out], "still.bag: the target does not move")
+        far = self.path("far.yaml")
+        with open(far, "w", encoding="utf-8") as file:
+            file.write("predictor: paper\nacceleration_density: 1.0e+09\nmeasurement_scale: 1.0\n")
+        self.assert_refused("fit_noise", [self.bag, "--from", far, "--measurement-scale", 1.0, "--out", out],
+                            "acceleration_density on its lower bound")
+        self.assertFalse(os.path.exists(out))
+
+    # Fault 54: a table with CR LF and semicolons -> read; times in ms, positions in mm -> refused with the unit
+    def test_tables_as_people_have_them(self):
+        with open(self.motion, encoding="utf-8") as file:
+            text = file.read()
+        rows = [line.split(",") for line in text.splitlines()[2:]]
+        tables = {"windows": text.replace("\n", "\r\n"), "sheet": text.replace(",", ";").replace(".", ","),
+                  "ms": "time,x,y,z\n" + "".join(f"{1e3 * float(row[0])},{','.join(row[1:4])}\n" for row in rows),
+                  "mm": "time,x,y,z\n" + "".join(
+                      row[0] + "".join(f",{1e3 * float(word)}" for word in row[1:4]) + "\n" for row in rows)}
+        common = ["--columns", "time,x,y,z", "--warm-up", 1, "--predictors", "hold", "--csv"]
+        errors = []
+        for name, content in tables.items():
+            path = self.path(name + ".csv")
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                file.write(content)
+            if name in ("ms", "mm"):
+                unit = "is the time in s?" if name == "ms" else "in mm?"
+                self.assert_refused("forecast_error", [*common, path], unit)
+            else:
+                figures, _ = self.figures("forecast_error", *common, path)
+                errors.append(figures["conditions"][name + ".csv"]["hold"]["rms_error_m"])
+        self.assertEqual(errors[0], errors[1])
 
     def test_predictor_benchmark_compares_with_filterpy(self):
         os.makedirs(self.path("stub/filterpy"), exist_ok=True)

@@ -3,9 +3,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <prf_core/table.hpp>
 #include <stdexcept>
 
 namespace motion_capture {
@@ -14,20 +12,6 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kSampleRate = 100.0;  // Hz
 constexpr double kGap = 0.02;          // s
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-double number_in(const std::string& path, const std::string& cell, const std::string& column) {
-  std::istringstream stream(cell);
-  double value = 0.0;
-  if (stream >> value && stream.eof() && std::isfinite(value)) return value;
-  throw std::invalid_argument(path + ": column " + column + " holds '" + cell + "', not a number");
-}
 
 }  // namespace
 
@@ -153,21 +137,12 @@ void remove_drift(std::vector<MotionPiece>& pieces) {
 }
 
 std::vector<MotionPiece> read_capture(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line)) throw std::invalid_argument(path + " cannot be read");
-  std::map<std::string, std::size_t> columns;
-  for (const std::string& name : cells_of(line)) columns.emplace(name, columns.size());
+  std::ifstream file = prf_core::open_table(path);
+  prf_core::TableReader reader(file, path);
+  reader.read_header("t_s,deck_sway_left_m,...");
+  const auto value = [&](const char* column) { return reader.number(reader.column(column)); };
   std::vector<MotionPiece> pieces;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    const auto value = [&](const std::string& column) {
-      const auto found = columns.find(column);
-      if (found == columns.end() || found->second >= cells.size()) {
-        throw std::invalid_argument(path + " has no column " + column);
-      }
-      return number_in(path, cells[found->second], column);
-    };
+  while (reader.next()) {
     MotionSample sample;
     sample.time = value("t_s");
     sample.deck_sway = value("deck_sway_left_m");

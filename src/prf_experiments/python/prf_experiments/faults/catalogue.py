@@ -12,6 +12,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from prf_experiments.run.arguments import meant
+
 TOPICS = ("joint_states", "camera/image_raw", "camera/camera_info", "tag_detections", "tf",
           "target/forecast", "skill/trajectory", "execution/progress", "execution/setpoint",
           "joint_command", "control/status")
@@ -123,7 +125,7 @@ def parse_one(word: str) -> Fault:
     match = _WORD.fullmatch(word)
     if not match or match["name"] not in KINDS:
         raise FaultError(f"'{word}' is no fault, valid: NAME[/TARGET][:AMOUNT][@TIME[-END]] with "
-                         "NAME " + "|".join(KINDS))
+                         "NAME " + "|".join(KINDS) + meant(re.split(r"[/:@]", word)[0], *KINDS))
     kind, target = KINDS[match["name"]], match["target"] or ""
     if target not in (kind.target or ("",)):
         raise FaultError(f"{word}: '{target}' is no target of {match['name']}, valid: "

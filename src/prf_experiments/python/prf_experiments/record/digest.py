@@ -10,9 +10,8 @@ import hashlib
 from dataclasses import dataclass
 from typing import Any
 
-import rosbag
-
-from prf_experiments.record import recording, topics
+from prf_experiments.record import topics
+from prf_msgs import bags
 
 EXEMPT = {"/" + name for name in ["rosout_agg", topics.DESCRIPTION, *topics.EXEMPT]}
 
@@ -24,28 +23,24 @@ class Digest:
 
 
 def digests(path: str, topics: list[str] | None = None) -> dict[tuple[str, str], Digest]:
-    """{(topic, publisher): Digest} of a bag; `topics` restricts it to those names."""
-    try:
-        return _digests(path, topics)
-    except (rosbag.ROSBagException, *recording.DAMAGES) as error:
-        raise recording.RecordingError(f"{path}: broken: {error}") from None
+    """{(topic, publisher): Digest} of a bag; `topics` restricts it to those names.
 
-
-def _digests(path, topics):
+    Raises RecordingError when there is nothing of them: nothing is not the same as nothing.
+    """
     hashes: dict[tuple[str, str], Any] = {}
-    counts: dict[tuple[str, str], int] = {}
-    with recording.open_bag(path) as bag:
+    numbers: dict[tuple[str, str], int] = {}
+    with bags.opened(path) as bag:
         present = [name for name in bag.get_type_and_topic_info().topics
                    if name not in EXEMPT and (topics is None or name in topics)]
-        if not present:
-            return {}
         for topic, raw, _, header in bag.read_messages(topics=present, raw=True,
-                                                       return_connection_header=True):
-            caller = header["callerid"]
-            key = topic, caller.decode() if isinstance(caller, bytes) else caller
+                                                       return_connection_header=True) if present else ():
+            key = topic, bags.publisher(header)
             hashes.setdefault(key, hashlib.sha256()).update(raw[1])
-            counts[key] = counts.get(key, 0) + 1
-    return {key: Digest(counts[key], hashes[key].hexdigest()) for key in sorted(hashes)}
+            numbers[key] = numbers.get(key, 0) + 1
+    if not numbers:
+        raise bags.BagError(f"{path}: no message" + (" of " + ", ".join(topics) if topics else
+                                                     " that could be compared"))
+    return {key: Digest(numbers[key], hashes[key].hexdigest()) for key in sorted(hashes)}
 
 
 def differences(ours: dict, theirs: dict) -> list[str]:
@@ -55,7 +50,7 @@ def differences(ours: dict, theirs: dict) -> list[str]:
         a, b = ours.get(key), theirs.get(key)
         if a == b:
             continue
-        name = f"{key[0]} [{key[1]}]"
+        name = f"{key[0]} [{key[1] or 'no name'}]"
         if a is None or b is None:
             lines.append(f"{name}: only in the {'second' if a is None else 'first'} bag")
         elif a.messages != b.messages:

@@ -1,34 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A trial's bag as arrays. Stamps are integer nanoseconds, taken from the messages' headers."""
 import json
-import os
-import stat
-import struct
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import genpy
 import numpy as np
-import rosbag
 import rosgraph_msgs.msg
 from numpy.typing import ArrayLike
 
 from prf_experiments import geometry
 from prf_experiments.record import topics
+from prf_msgs import bags
 
 PLANNING_FRAME = "j2s7s300_link_base"
 BODY_FRAME = "base_link"
+NEEDED = topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS  # of a trial's bag
 ARM_JOINTS = [f"j2s7s300_joint_{number}" for number in range(1, 8)]
 
 
-# What reading a damaged bag may raise, in rosbag, in genpy and in the decompressors.
-DAMAGES = (OSError, ValueError, EOFError, RuntimeError, KeyError, IndexError, AttributeError,
-           TypeError, MemoryError, struct.error, genpy.MessageException)
-
-
-class RecordingError(Exception):
-    """The bag does not hold a trial; the message says what is missing or broken."""
+RecordingError = bags.BagError  # also: the bag does not hold a trial
 
 
 @dataclass
@@ -157,29 +148,11 @@ def transform_values(transform: Any) -> tuple[float, ...]:
     return (t.x, t.y, t.z, r.x, r.y, r.z, r.w)
 
 
-def open_bag(path: str) -> rosbag.Bag:
-    """Raises RecordingError. Only a file is opened: a device or a pipe may have no end."""
-    try:
-        if not stat.S_ISREG(os.stat(path).st_mode):
-            raise RecordingError(f"{path}: is no file")
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from None
-    try:
-        return rosbag.Bag(path)
-    except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f"{path}: the bag was not closed") from None
-    except (*DAMAGES, rosbag.ROSBagException) as error:
-        raise RecordingError(f"{path}: cannot be read: {error}") from None
-
-
 def description(path: str) -> dict:
     """What a trial's bag says about itself: command, arguments, versions; {} when nothing."""
-    with open_bag(path) as bag:
-        try:
-            for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
-                return json.loads(message.data)
-        except (rosbag.ROSBagException, *DAMAGES) as error:
-            raise RecordingError(f"{path}: broken: {error}") from None
+    with bags.opened(path) as bag:
+        for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
+            return json.loads(message.data)
     return {}
 
 
@@ -301,7 +274,7 @@ class _Reader:
     def poses(self, topic):
         values = np.array(self._rows[topic], dtype=float).reshape(-1, 7)
         if np.any(np.all(values[:, 3:] == 0.0, axis=1)):
-            raise RecordingError(f"{topic} has a pose without orientation")
+            raise ValueError(f"{topic} has a pose without orientation")
         return Poses(self.stamps(topic), values)
 
     def progress(self):
@@ -343,24 +316,17 @@ def read(path: str, tag_id: int = 0, without: Sequence[str] = ()) -> Recording:
 
     Of the topics `without` it need not have a message.
     """
-    if not os.path.exists(path):
-        raise RecordingError(f"{path}: there is no such bag")
-    try:
-        return _read(path, _Reader(tag_id), without)
-    except (rosbag.ROSBagException, *DAMAGES) as error:
-        raise RecordingError(f"{path}: broken: {error}") from None
-
-
-def _read(path, reader, without):
-    with open_bag(path) as bag:
-        counts = {name.lstrip("/"): info.message_count
-                  for name, info in bag.get_type_and_topic_info().topics.items()}
-        missing = [name for name in topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS
-                   if not counts.get(name) and name not in without]
-        if missing:
-            raise RecordingError(f"{path}: no message of " + ", ".join(missing))
+    reader = _Reader(tag_id)
+    with bags.opened(path) as bag:
+        bags.require_messages(bag, [name for name in NEEDED if name not in without])
+        bags.require_types(bag, {name.lstrip("/") for name in reader.topics})
+        images = bags.counts(bag).get("camera/image_raw", 0)
         for topic, message, _ in bag.read_messages(topics=reader.topics):
             reader.take(topic, message)
+        return _recording(path, reader, images)
+
+
+def _recording(path, reader, images):
     arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
     if arm_base_in_body is None:
         raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}")
@@ -375,7 +341,7 @@ def _read(path, reader, without):
         contacts=reader.contacts,
         detection_stamps=reader.stamps("tag_detections"),
         detections=reader.poses("tag_detections").values,
-        images=counts.get("camera/image_raw", 0),
+        images=images,
         progress=reader.progress(),
         forecasts=reader.forecasts(),
         plans=reader.plans,

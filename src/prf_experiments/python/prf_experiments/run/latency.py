@@ -25,6 +25,7 @@ import numpy as np
 import rosgraph
 
 from prf_experiments import files
+from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, session
 
 TICKS = ("joint_states", "execution/progress", "execution/setpoint", "joint_command")
@@ -206,8 +207,8 @@ def _measure_apart(options, loops):
 
 
 def main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(prog="latency", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = args.Parser(prog="latency", description=__doc__,
+                         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=15.0, help="of each measurement [15]")
     parser.add_argument("--motion", default="heavy")
     parser.add_argument("--gait", default="stand")

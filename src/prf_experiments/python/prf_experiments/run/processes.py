@@ -60,6 +60,15 @@ def master_environment(port: int, log_folder: str) -> dict[str, str]:
     return values
 
 
+def last_line(log_file: str) -> str:
+    """Last line of a log that says anything."""
+    with contextlib.suppress(OSError), open(log_file, encoding="utf-8", errors="replace") as log:
+        for line in reversed(log.read().splitlines()):
+            if line.strip():
+                return line.strip()
+    return "it says nothing"
+
+
 def last_error(log_file: str, node: str) -> str:
     """Last FATAL line of a node, else its last ERROR line, else an empty string."""
     pattern = re.compile(r"\[(FATAL|ERROR)\] \[/?" + re.escape(node) + r"\] (.*?)(\x1b\[0m)?$")

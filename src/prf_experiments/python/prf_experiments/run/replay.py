@@ -13,6 +13,7 @@ from prf_experiments.faults import catalogue, wiring
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session
+from prf_msgs import bags
 
 PLAYED = topics.CLOCK + topics.SENSORS
 COMPARED = ["/" + topic for topic in topics.OUTPUTS + topics.TRANSFORMS]
@@ -47,6 +48,17 @@ def repeatable(text: str) -> list[catalogue.Fault]:
     return faults
 
 
+def check(bag: str) -> None:
+    """Looks into the bag before a node starts: without sensors nothing can be played, without
+    outputs nothing compared."""
+    with bags.opened(bag) as content:
+        bags.require_messages(content, PLAYED)
+        bags.require_types(content, {*PLAYED, *topics.OUTPUTS, *topics.TRANSFORMS})
+        found = bags.counts(content)
+        if not any(found.get(name.lstrip("/")) for name in COMPARED):
+            raise bags.BagError(f"{bag}: no message of any output, there is nothing to compare with")
+
+
 def replay(bag: str, folder: str, rate: float) -> str:
     """Leaves folder/replay.bag with everything that the framework publishes."""
     chosen = recording.description(bag).get("arguments", {})
@@ -79,7 +91,8 @@ def replay(bag: str, folder: str, rate: float) -> str:
             play.progress.show("playing")
             time.sleep(0.1)
         if playing.returncode != 0:
-            raise session.SessionError(f"rosbag play ended with exit code {playing.returncode}")
+            raise session.SessionError(f"rosbag play of {bag} ended with exit code {playing.returncode}: "
+                                       + processes.last_line(play.log("player.log")))
         play.close(launch, recorder)
     play.progress.close()
     return os.path.join(folder, "replay.bag")
@@ -92,6 +105,7 @@ def compare(bag: str, replayed: str) -> tuple[dict, dict, list[str]]:
 
 
 def run(options: argparse.Namespace) -> int:
+    check(options.bag)
     if options.folder:
         os.makedirs(options.folder, exist_ok=True)
     with contextlib.ExitStack() as stack:
@@ -109,7 +123,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="replay", description="Plays the sensor topics of a trial's bag into the framework "
         "alone and compares its outputs with those in the bag. Exit 0: identical.")
     parser.add_argument("bag")

@@ -19,6 +19,7 @@ import yaml
 from prf_experiments import files
 from prf_experiments.record import recording, topics
 from prf_experiments.run import connections, processes
+from prf_msgs import bags
 
 CONNECT_TIMEOUT = 60.0  # s
 NEEDED_SPACE = 800 * 1024**2  # bytes, a whole bag of 60 s
@@ -229,5 +230,5 @@ def guarded(name: str, action: Callable[[], int]) -> int:
         return interruption.exit_code
     except (SessionError, processes.ProcessError, DemonstrationError, recording.RecordingError,
             OSError) as error:
-        print(f"{name}: {error}", file=sys.stderr)
+        print(f"{name}: {bags.one_line(error)}", file=sys.stderr)
         return 1

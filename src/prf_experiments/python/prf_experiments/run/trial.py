@@ -131,8 +131,8 @@ def session_of(values: dict, folder: str) -> session.Session:
 
 
 def check_time(values: dict) -> None:
-    """Refuses a time limit within which the skill cannot be executed."""
-    times = demonstration.read(skill(values)).times
+    """Refuses a skill that no arm can execute, or not within the time limit."""
+    times = demonstration.read_executable(skill(values)).times
     needed = float(times[-1] - times[0])
     if values["time_limit"] < needed:
         raise args.ArgumentError(f"time_limit:={values['time_limit']:g} is too short, the "
@@ -186,7 +186,7 @@ def main(words: list[str]) -> int:
     try:
         values = trial_arguments.complete(args.parse(words, valid), words)
     except args.ArgumentError as error:
-        print(f"run_trial: {error}\nvalid arguments:\n{args.usage(valid)}", file=sys.stderr)
+        print(f"run_trial: {error}", file=sys.stderr)
         return EXIT_USAGE
     if values["isolated"]:
         try:

@@ -53,8 +53,8 @@ def address(text: str) -> str:
     return text
 
 
-def parser() -> argparse.ArgumentParser:
-    result = argparse.ArgumentParser(
+def parser() -> args.Parser:
+    result = args.Parser(
         prog="run_experiment", formatter_class=argparse.RawDescriptionHelpFormatter,
         usage="run_experiment [EXPERIMENT [--option ...]] [name:=value ...]",
         description="Without EXPERIMENT: one trial.",
@@ -95,10 +95,30 @@ def default_jobs() -> int:
     return len(os.sched_getaffinity(0))
 
 
+def refuse_unknown(words: Sequence[str], experiment: str | None) -> None:
+    """Raises ArgumentError for words that argparse left; `--seed 3` is `seed:=3` in another form."""
+    name, separator, text = words[0].lstrip("-").partition("=")
+    text = text if separator else " ".join(words[1:2])
+    guesses = [f"{name}:={text}"] if name in SWEEP_ARGUMENTS else []
+    if experiment in STUDIES and words[0].startswith("--"):
+        near = args.meant(words[0], "--seeds", "--jobs", "--keep-bags", "--scheduler", "--name",
+                          "--any-version", "--json", "--results-page")
+        guesses += [near[len("; did you mean "):-1] + (f" {text}" if text else "")] if near else []
+    guess = f"; did you mean {' or '.join(guesses)}?" if guesses else args.meant(name, *SWEEP_ARGUMENTS)
+    raise args.ArgumentError(f"unknown option {words[0]}{guess} (--help lists them)")
+
+
 def parse(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
     """(options, name:=value words); raises ArgumentError or, from argparse, SystemExit."""
     named = [word for word in words if ":=" in word]
-    options = parser().parse_args([word for word in words if ":=" not in word])
+    for word in words:
+        if (("=" in word and not word.startswith("-")) or word in SWEEP_ARGUMENTS) and word not in named:
+            args.named_value(word, SWEEP_ARGUMENTS)  # says what was meant
+    if words and words[0].startswith("--") and words[0] != "--help":
+        refuse_unknown(words, None)
+    options, unknown = parser().parse_known_args([word for word in words if ":=" not in word])
+    if unknown:
+        refuse_unknown(unknown, options.experiment)
     if options.experiment == "soak":
         options.results = args.parse(named, trial_arguments.RESULTS)["results"]
     elif options.experiment in STUDIES:
@@ -118,8 +138,7 @@ def main(words: list[str]) -> int:
     try:
         options, named = parse(words)
     except args.ArgumentError as error:
-        print(f"run_experiment: {error}\nvalid arguments:\n{args.usage(trial_arguments.TRIAL)}",
-              file=sys.stderr)
+        print(f"run_experiment: {error}", file=sys.stderr)
         return EXIT_USAGE
     if check:
         return EXIT_OK

@@ -24,6 +24,7 @@ from prf_experiments.sweep import trial_runner
 BAR = 24  # characters
 MEGABYTE = 1e6
 CONNECT_TIMEOUT = 20.0  # s
+WAITING_PERIOD = 30.0  # s between two lines that say what is waited for
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,7 @@ class Board:
     def __init__(self, total: int, kept: int, stream: TextIO = sys.stdout,
                  clock: Callable[[], float] = time.monotonic):
         self._total, self._kept, self._stream, self._clock = total, kept, stream, clock
-        self._started, self._done = clock(), 0
+        self._started, self._done, self._waited = clock(), 0, -WAITING_PERIOD
         self._counts: dict[str, int] = {}
         self._terminal = stream.isatty()
         self._write(f"{total} trials" + (f", {kept} of them finished before" if kept else ""))
@@ -144,6 +145,14 @@ class Board:
             self._stream.write("\r\x1b[K" + self.bar())
             self._stream.flush()
 
+    def wait_for(self, what: str) -> None:
+        """Says what keeps the trials from being run, every WAITING_PERIOD s anew; "": nothing."""
+        if not what:
+            self._waited = -WAITING_PERIOD
+        elif self._clock() - self._waited >= WAITING_PERIOD:
+            self._waited = self._clock()
+            self._write(what)
+
     def close(self, folder: str) -> None:
         used = trial_runner.size(os.path.join(folder, "trials")) / MEGABYTE
         self._write(f"{self._done} trials in {(self._clock() - self._started) / 60:.1f} min; "
@@ -151,11 +160,12 @@ class Board:
 
 
 @contextlib.contextmanager
-def executor(options: SweepParams) -> Iterator[concurrent.futures.Executor]:
-    """Where trials are sent: something with submit() that gives concurrent futures."""
+def executor(options: SweepParams) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], str]]]:
+    """(where trials are sent: something with submit() that gives concurrent futures, what it waits
+    for, "" when for nothing but the trials)."""
     if options.scheduler is None:
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            yield pool
+            yield pool, lambda: ""
         return
     import distributed  # half a second, and only needed here
     try:
@@ -163,8 +173,17 @@ def executor(options: SweepParams) -> Iterator[concurrent.futures.Executor]:
                                     set_as_default=False)
     except (OSError, ValueError, distributed.TimeoutError) as error:
         raise SessionError(f"no Dask scheduler answers at {options.scheduler}: {error}") from None
+
+    def lacking():
+        try:
+            workers = client.scheduler_info()["workers"]
+        except (OSError, distributed.TimeoutError) as error:
+            raise SessionError(f"the Dask scheduler at {options.scheduler} no longer answers: "
+                               f"{error}") from None
+        return "" if workers else (f"no worker has joined {options.scheduler}, waiting; start one with "
+                                   f"`dask-worker {options.scheduler}`")
     with client:
-        yield client.get_executor(pure=False)
+        yield client.get_executor(pure=False), lacking
 
 
 def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
@@ -182,7 +201,7 @@ def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
         waiting = [row for row in range(len(trials)) if row not in results]
         shown = board(len(trials), len(trials) - len(waiting))
         drawn = with_reports(trials)
-        with executor(options) as pool:
+        with executor(options) as (pool, lacking):
             futures = {pool.submit(trial_runner.execute, drawn[row],
                                    trial_folder(folder, trials[row]), options.keep_bags,
                                    attempt): row for row in waiting}
@@ -194,6 +213,7 @@ def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
                         row = futures.pop(future)
                         results[row] = future.result()
                         shown.tell(trials[row], results[row])
+                    shown.wait_for(lacking())
                     shown.refresh()
             except (Exception, Interrupted):
                 for future in futures:

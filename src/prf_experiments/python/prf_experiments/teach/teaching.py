@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a guided hand to a demonstration file: records the teaching, converts its bag."""
-import argparse
 import contextlib
 import os
 import tempfile
@@ -10,8 +9,10 @@ from scipy.spatial.transform import Slerp
 
 from prf_experiments import geometry
 from prf_experiments.record import frames, recording, topics
+from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration
+from prf_msgs import bags
 
 RATE = 20.0  # Hz, of the demonstration
 MOVING_SPEED = 0.01  # m/s, slower the hand counts as still
@@ -32,7 +33,10 @@ def moving_part(times: np.ndarray, poses: np.ndarray) -> slice:
     rate = (geometry.rotation(poses[1:]) * geometry.rotation(poses[:-1]).inv()).magnitude() / steps
     moving = np.flatnonzero((speed > MOVING_SPEED) | (rate > MOVING_RATE))
     if not moving.size:
-        raise demonstration.DemonstrationError("the hand never moves")
+        raise demonstration.DemonstrationError(
+            f"the hand never moves: over {times[-1] - times[0]:.3g} s its speed is at most "
+            f"{np.max(speed):.2g} m/s and {np.max(rate):.2g} rad/s, must be above {MOVING_SPEED:g} "
+            f"m/s or {MOVING_RATE:g} rad/s")
     return slice(int(moving[0]), int(moving[-1]) + 2)
 
 
@@ -47,27 +51,45 @@ def resample(times: np.ndarray, poses: np.ndarray, rate: float) -> tuple[np.ndar
     return at - times[0], result
 
 
-def _stamps(path, topic):
-    with recording.open_bag(path) as bag:
-        return np.array([message.header.stamp.to_nsec()
-                         for _, message, _ in bag.read_messages(topics=["/" + topic])],
-                        dtype=np.int64)
+def _messages(path, topic):
+    with bags.opened(path) as bag:
+        bags.require_messages(bag, [topic])
+        bags.require_types(bag, {topic})
+        return [message for _, message, _ in bag.read_messages(topics=["/" + topic])]
+
+
+def _stamp(message):
+    return message.header.stamp.to_nsec()
+
+
+def _camera(path, buffer, detections):
+    """Poses (n, 7) of the camera in the planning frame, each in the frame that its message names."""
+    stamps = [_stamp(message) for message in detections]
+    poses = np.full((len(detections), 7), np.nan)
+    for frame in dict.fromkeys(message.header.frame_id for message in detections):
+        rows = [row for row, message in enumerate(detections) if message.header.frame_id == frame]
+        found = frames.lookup(buffer, recording.PLANNING_FRAME, frame, [stamps[row] for row in rows])
+        if not np.any(np.isfinite(found)):
+            raise demonstration.DemonstrationError(
+                f"{path}: tag_detections are in frame '{frame}': "
+                + frames.why_not(buffer, recording.PLANNING_FRAME, frame, stamps[rows[-1]]))
+        poses[rows] = found
+    return poses
 
 
 def _target(path, tag_id):
     """Mean pose of the tag in the planning frame over the bag's last detections."""
-    buffer = frames.load(path)
-    stamps = _stamps(path, "tag_detections")
-    stamps = stamps[stamps >= stamps[-1] - int(1e9 * TARGET_WINDOW)] if stamps.size else stamps
-    with recording.open_bag(path) as bag:
-        rows = {message.header.stamp.to_nsec(): recording.tag_row(message, tag_id)
-                for _, message, _ in bag.read_messages(topics=["/tag_detections"])}
-    camera = frames.lookup(buffer, recording.PLANNING_FRAME, "camera_optical_frame", stamps)
-    detected = np.array([rows[stamp] for stamp in stamps]).reshape(-1, 7)
+    detections = _messages(path, "tag_detections")
+    end = _stamp(detections[-1]) - int(1e9 * TARGET_WINDOW)
+    detections = [message for message in detections if _stamp(message) >= end]
+    camera = _camera(path, frames.load(path), detections)
+    detected = np.array([recording.tag_row(message, tag_id) for message in detections])
     known = np.all(np.isfinite(camera) & np.isfinite(detected), axis=1)
     if not known.any():
+        ids = sorted({found.id for message in detections for found in message.detections})
         raise demonstration.DemonstrationError(
-            f"{path}: the tag is not seen in the last {TARGET_WINDOW:g} s")
+            f"{path}: tag {tag_id} is not seen in the last {TARGET_WINDOW:g} s, "
+            + ("no other either" if not ids else "but " + ", ".join(map(str, ids))))
     seen = geometry.compose(camera[known], detected[known])
     return geometry.make(np.mean(seen[:, :3], axis=0), geometry.rotation(seen).mean())
 
@@ -75,12 +97,14 @@ def _target(path, tag_id):
 def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstration:
     """Demonstration from a bag of joint_states, tf and tag_detections."""
     target = _target(path, tag_id)
-    stamps = _stamps(path, "joint_states")
-    hand = frames.lookup(frames.load(path, "/robot_state_publisher"), recording.PLANNING_FRAME,
-                         demonstration.HAND_FRAME, stamps)
+    stamps = np.array([_stamp(message) for message in _messages(path, "joint_states")], dtype=np.int64)
+    buffer = frames.load(path, "/robot_state_publisher")
+    hand = frames.lookup(buffer, recording.PLANNING_FRAME, demonstration.HAND_FRAME, stamps)
     known = np.all(np.isfinite(hand), axis=1)
     if known.sum() < 2:
-        raise demonstration.DemonstrationError(f"{path}: tf has no pose of {demonstration.HAND_FRAME}")
+        raise demonstration.DemonstrationError(
+            f"{path}: tf has no pose of {demonstration.HAND_FRAME} at the stamps of joint_states: "
+            + frames.why_not(buffer, recording.PLANNING_FRAME, demonstration.HAND_FRAME, stamps[-1]))
     times, hand = 1e-9 * (stamps[known] - stamps[known][0]), hand[known]
     part = moving_part(times, hand)
     times, poses = resample(times[part], hand[part], RATE)
@@ -109,7 +133,7 @@ def teach(folder: str, seed: int) -> str:
 
 
 def teach_main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="run_teach", description="Leads the simulated arm to the target by the hand and "
         "writes the demonstration.")
     parser.add_argument("out", help="demonstration file to write")

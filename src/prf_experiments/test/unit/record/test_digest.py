@@ -12,6 +12,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
 from prf_experiments.record import digest
 
+from prf_msgs import bags
+
 
 class Digest(unittest.TestCase):
     def setUp(self):
@@ -67,8 +69,22 @@ class Digest(unittest.TestCase):
         theirs = self.strings("b.bag", [("/rosout", "/n", "x", 1), ("/a", "/n", "x", 1)])
         self.assertEqual(digest.differences(ours, theirs), [])
 
-    def test_a_bag_of_exempt_topics_alone_has_no_digests(self):
-        self.assertEqual(self.strings("a.bag", [("/rosout", "/n", "x", 1)]), {})
+    # Fault 54: bags with nothing to compare -> refused, not called identical
+    def test_nothing_is_not_the_same_as_nothing(self):
+        for rows in ([], [("/rosout", "/n", "x", 1)]):
+            with self.assertRaisesRegex(bags.BagError, "a.bag: no message that could be compared"):
+                self.strings("a.bag", rows)
+        path = os.path.join(self._folder, "b.bag")
+        self.strings("b.bag", [("/a", "/n", "x", 1)])
+        with self.assertRaisesRegex(bags.BagError, "no message of /c"):
+            digest.digests(path, ["/c"])
+
+    # Fault 54: a bag without the publishers' names -> digests under no name
+    def test_publishers_names_are_optional(self):
+        path = os.path.join(self._folder, "a.bag")
+        with rosbag.Bag(path, "w") as bag:
+            bag.write("/a", std_msgs.msg.String("x"), rospy.Time(1))
+        self.assertEqual(list(digest.digests(path)), [("/a", "")])
 
 
 if __name__ == "__main__":

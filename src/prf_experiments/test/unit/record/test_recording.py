@@ -4,6 +4,7 @@ import sys
 import tempfile
 import unittest
 
+import genpy.dynamic
 import numpy as np
 import rosbag
 
@@ -11,6 +12,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
 from prf_experiments.judge import judge
 from prf_experiments.record import frames, recording
+
+from prf_msgs.msg import ExecutionProgress
 
 
 class Recording(unittest.TestCase):
@@ -82,6 +85,24 @@ class Recording(unittest.TestCase):
             stream.seek(6000)
             stream.write(b"\xff" * 3000)
         self.assert_refused(self.bag)
+
+    # Fault 54: a bag of the version before two fields were added -> read without them
+    def test_reads_a_bag_of_an_earlier_version(self):
+        synthetic.write_bag(self.bag, synthetic.make_recording(1.0))
+        kind = "prf_msgs/ExecutionProgress"
+        older = genpy.dynamic.generate_dynamic(kind, "\n".join(
+            line for line in ExecutionProgress._full_text.split("\n")
+            if not line.startswith(("float64 following_error", "float64 following_rotation"))))[kind]
+        with rosbag.Bag(self.bag) as whole:
+            messages = list(whole.read_messages())
+        with rosbag.Bag(self.bag, "w") as bag:
+            for topic, message, stamp in messages:
+                if topic == "/execution/progress":
+                    message = older(**{name: getattr(message, name) for name in older.__slots__})
+                bag.write(topic, message, stamp)
+        read = recording.read(self.bag)
+        self.assertTrue(np.all(np.isnan(read.progress.following)))
+        self.assertGreater(len(read.progress.stamps), 50)
 
     def test_tf_answers_between_stamps_and_is_nan_outside(self):
         synthetic.write_bag(self.bag, synthetic.make_recording(1.0))

@@ -23,16 +23,24 @@ class Arguments(unittest.TestCase):
         return error.getvalue()
 
     def test_bad_ones_are_refused_with_a_reason(self):
-        for words, why in ((["tabel"], "invalid choice"), (["table", "--seeds", "0"], "positive"),
+        for words, why in ((["tabel"], "did you mean table?"), (["table", "--seeds", "0"], "positive"),
                            (["table", "motion:=wild"], "none|light|heavy"),
                            (["table", "--seeds", "2", "seed:=3"], "say the same"),
                            (["compare", "--name", "a/b"], "plain name"),
                            (["table", "results:=a,b"], "one folder"),
                            (["table", "--scheduler", "host"], "not an address"),
-                           (["table", "--keep-bags", "some"], "invalid choice"),
+                           (["table", "--keep-bags", "some"], "must be one of failed, all, none"),
                            (["table", "keep_bag:=true"], "unknown argument"),
-                           (["seed:=1,2"], "invalid seed"), (["--seeds", "2"], "invalid choice")):
-            self.assertIn(why, self.refused(*words))
+                           (["seed:=1,2"], "invalid seed"), (["--seeds", "2"], "unknown option"),
+                           (["table", "--seed", "3"], "did you mean seed:=3 or --seeds 3?"),
+                           (["--seed", "3"], "did you mean seed:=3?"), (["motion=light"], "motion:=light?"),
+                           (["cart", "sed=3"], "did you mean seed:=3?"), (["gait"], "did you mean gait:="),
+                           (["table", "--job", "3"], "did you mean --jobs 3?"),
+                           (["motion:=absent.csv"], "absent.csv: there is no such file"),
+                           (["motoin:=light"], "did you mean motion?"), (["gait:=stpe"], "mean step?")):
+            told = self.refused(*words)
+            self.assertIn(why, told)
+            self.assertEqual(len(told.splitlines()), 1, told)
 
     def test_good_ones_pass_wherever_the_results_folder_stands(self):
         for words in ([], ["results:=/r", "table", "--seeds", "2", "motion:=light,heavy"],

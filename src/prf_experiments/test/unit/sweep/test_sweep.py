@@ -57,6 +57,15 @@ class Sweep(unittest.TestCase):
     def folders(self):
         return sorted(os.listdir(os.path.join(self.folder, "trials")))
 
+    # Fault 46: a Dask scheduler that no worker has joined -> said, and said again every half minute
+    def test_says_what_it_waits_for(self):
+        now, out = [0.0], io.StringIO()
+        board = sweep.Board(2, 0, out, lambda: now[0])
+        for at, lacking in ((1, "no worker"), (2, "no worker"), (35, "no worker"), (36, ""), (37, "no worker")):
+            now[0] = at
+            board.wait_for(lacking)
+        self.assertEqual(out.getvalue().splitlines()[1:], ["no worker"] * 3)
+
     def test_runs_every_combination_once_and_answers_in_their_order(self):
         attempt = Attempts()
         results = self.run_sweep(attempt)

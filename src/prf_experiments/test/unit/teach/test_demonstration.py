@@ -46,7 +46,7 @@ class Demonstration(unittest.TestCase):
 
     def test_survives_writing_and_reading(self):
         turned = Rotation.from_euler("y", 0.1 * np.arange(20))
-        poses = geometry.make(np.random.default_rng(1).normal(size=(20, 3)), turned)
+        poses = geometry.make(0.5 + 0.01 * np.random.default_rng(1).normal(size=(20, 3)), turned)
         made = demonstration.make(0.05 * np.arange(20), poses, geometry.IDENTITY, "a: test")
         demonstration.write(self.path, made)
         read = demonstration.read(self.path)

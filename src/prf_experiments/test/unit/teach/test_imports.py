@@ -133,9 +133,39 @@ class Imports(unittest.TestCase):
                 imports.convert(path, None, "test")
         for header, rows, why in (("time,x,y,z", None, "no column qx"),
                                   ("qw,qx,qy,qz,z,y,x,time,grip", short, "no motion"),
-                                  ("qw,qx,qy,qz,z,y,x,time,grip", [["a"] * 9], "lacks numbers")):
+                                  ("qw,qx,qy,qz,z,y,x,time,grip", [["a"] * 9], "must be a finite number")):
             with self.assertRaisesRegex(demonstration.DemonstrationError, why):
                 imports.convert(self.csv(header, rows), None, "test")
+
+    # Fault 48: times in ns, us or ms since 1970 -> known by their size; other units -> asked for by name
+    def test_units_of_time(self):
+        for power in (3, 6, 9):
+            stamps = (1_684_779_652 + TIMES) * 10**power
+            whole = np.array([1_684_779_652 * 10**power + round(t * 10**power) for t in TIMES])
+            for times in (stamps, whole):
+                self.assert_is_the_motion(imports.convert(self.hdf5(
+                    **{"toolpose_info/toolpose_time": times}), None, "test"))
+        for power, unit in ((3, "ms"), (6, "us"), (9, "ns")):
+            with self.assertRaisesRegex(demonstration.DemonstrationError,
+                                        f"time spans 4e.*s, must be at most 600 s; is it in {unit}|"
+                                        f"time spans 4000 s.*{unit}"):
+                imports.convert(self.hdf5(**{"toolpose_info/toolpose_time": TIMES * 10**power}), None, "test")
+
+    # Fault 48: positions in mm -> refused with row, distance and the question
+    def test_millimetres_are_refused(self):
+        path = self.hdf5(**{"toolpose_info/toolpose_positions": 1000.0 * motion()[:, :3]})
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "demo.h5: row 1 is 583.* mm"):
+            imports.convert(path, None, "test")
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "target_pose is 1000 m"):
+            imports.convert(self.hdf5(), np.array([800.0, 0, 600, 0, 0, 0, 1]), "test")
+
+    # Fault 54: a table of a spreadsheet: byte order mark, semicolons, decimal commas, CR LF -> read
+    def test_tables_of_spreadsheets(self):
+        with open(self.csv(), encoding="utf-8") as stream:
+            text = stream.read()
+        with open(self.path("demo.csv"), "w", encoding="utf-8-sig", newline="\r\n") as stream:
+            stream.write(text.replace(",", ";").replace(".", ","))
+        self.assert_is_the_motion(imports.convert(self.path("demo.csv"), None, "test"))
 
     def test_a_file_that_is_no_hdf5_is_refused(self):
         with open(self.path("x.h5"), "wb") as stream:

@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import numpy as np
+import rosbag
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
@@ -24,11 +25,57 @@ def led_hand(times, start, end):
 
 
 class Teaching(unittest.TestCase):
-    def convert(self, data, hand):
+    def convert(self, data, hand, change=None):
+        """`change` gives each (topic, message, connection header) its place in a rewritten bag."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "teach.bag")
             synthetic.write_bag(path, data, hand=hand)
+            if change is not None:
+                with rosbag.Bag(path) as bag:
+                    kept = list(bag.read_messages(return_connection_header=True))
+                with rosbag.Bag(path, "w") as bag:
+                    for topic, message, stamp, header in kept:
+                        bag.write(topic, message, stamp, connection_header=change(topic, message, header))
             return teaching.convert(path, "test")
+
+    # Fault 54: a bag without publishers' names, or from another publisher of tf -> the same skill
+    def test_the_publisher_of_tf_may_have_any_name_or_none(self):
+        data = synthetic.make_recording(5.0)
+        hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
+        plain = self.convert(data, hand)
+
+        def nameless(_, __, header):
+            return {key: value for key, value in header.items() if key != "callerid"}
+
+        def renamed(_, __, header):
+            return {**header, "callerid": b"/arm/state_publisher"}
+        for change in (nameless, renamed):
+            np.testing.assert_array_equal(self.convert(data, hand, change).poses, plain.poses)
+
+    # Fault 4: detections in a frame that tf does not know -> refused by its name, not taken for another's
+    def test_detections_are_taken_in_the_frame_that_they_name(self):
+        data = synthetic.make_recording(5.0)
+        hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
+
+        def in_frame(frame):
+            def change(topic, message, header):
+                if topic == "/tag_detections":
+                    message.header.frame_id = frame
+                return header
+            return change
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "in frame 'front_camera'.*not exist"):
+            self.convert(data, hand, in_frame("front_camera"))
+        target = self.convert(data, hand, in_frame("j2s7s300_end_effector")).target
+        expected = geometry.compose(hand[-1], data.detections[-1])
+        np.testing.assert_allclose(target[:3], expected[:3], atol=1e-9)
+
+    # Fault 48: a teaching whose tf is in mm -> refused with distance and the question
+    def test_millimetres_in_a_bag_are_refused(self):
+        data = synthetic.make_recording(5.0)
+        hand = led_hand(data.seconds(data.ticks), 1.0, 3.5)
+        hand[:, :3] *= 1000.0
+        with self.assertRaisesRegex(demonstration.DemonstrationError, "is it in mm?"):
+            self.convert(data, hand)
 
     def test_keeps_the_moving_part_at_twenty_hertz(self):
         data = synthetic.make_recording(10.0)
