@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command export."""
-import argparse
 import glob
 import os
 import sys
@@ -8,6 +7,7 @@ import sys
 from catkin.find_in_workspaces import find_in_workspaces
 
 from prf_experiments import files
+from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.run.arguments import ArgumentError
 
@@ -41,7 +41,7 @@ def _robot(path):
 
 
 def export_main(words: list[str]) -> int:
-    parser = argparse.ArgumentParser(
+    parser = args.Parser(
         prog="export", description="Writes a bag as MCAP with ROS 2's encodings (CDR), which Foxglove, Lichtblick, "
         "PlotJuggler and Rerun open without ROS 1. Every message is there; forecast, plan, state, posterior and "
         "errors also as standard messages, under the topic's own name. Layouts: "
