@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "v60_gait/rigid_tree.hpp"
 
+#include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Eigenvalues>
@@ -193,33 +194,40 @@ void require_solid(const RigidBody& body) {
 
 namespace {
 
-std::size_t count_of(const std::string& word, const std::string& text) {
-  std::size_t count = 0;
-  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
-}
+// urdfdom logs what it cannot read, leaves it out, and goes on: without a link's mass, say.
+class UrdfErrors : public console_bridge::OutputHandler {
+ public:
+  UrdfErrors() { console_bridge::useOutputHandler(this); }
+  ~UrdfErrors() override { console_bridge::restorePreviousOutputHandler(); }
+  UrdfErrors(const UrdfErrors&) = delete;
+  UrdfErrors& operator=(const UrdfErrors&) = delete;
 
-// urdfdom drops an inertia with a number that it cannot read, and goes on without the mass.
-void require_all_inertias(const urdf::ModelInterface& model, std::string urdf_xml) {
-  for (auto from = urdf_xml.find("<!--"); from != std::string::npos; from = urdf_xml.find("<!--")) {
-    const auto to = urdf_xml.find("-->", from);
-    urdf_xml.erase(from, to == std::string::npos ? to : to + 3 - from);
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
+           int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = text;
   }
-  std::size_t read = 0;
-  for (const auto& link : model.links_) read += link.second->inertial ? 1 : 0;
-  const std::size_t given = count_of("<inertial", urdf_xml);
-  prf_core::require(read >= given, "readable <inertial> of the robot description", read,
-                    std::to_string(given) + ", all that it has: is a number not finite?");
+  [[nodiscard]] const std::string& first() const { return first_; }
+
+ private:
+  std::string first_;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const std::string& urdf_xml) {
+  const UrdfErrors errors;
+  urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf_xml);
+  if (!errors.first().empty()) {
+    throw std::invalid_argument("robot description: " + quoted(errors.first()));
+  }
+  if (!model || !model->getRoot()) {
+    throw std::invalid_argument("robot description is not a valid URDF");
+  }
+  return model;
 }
 
 }  // namespace
 
 RigidTree rigid_tree_from_urdf(const std::string& urdf_xml, bool fixed_base) {
-  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf_xml);
-  if (!model || !model->getRoot()) {
-    throw std::invalid_argument("robot description is not a valid URDF");
-  }
-  require_all_inertias(*model, urdf_xml);
+  const urdf::ModelInterfaceSharedPtr model = parse(urdf_xml);
   RigidTree tree;
   tree.bodies.emplace_back();
   tree.bodies.front().name = model->getRoot()->name;
