@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "elte_planner/combine_demonstrations.hpp"
 #include "elte_planner/demonstration.hpp"
+#include "elte_planner/demonstration_limits.hpp"
 
 namespace py = pybind11;
 
@@ -117,6 +118,18 @@ void bind_demonstration(py::module_& m) {
       py::arg("demonstrations"), py::arg("nodes"), py::kw_only(),
       py::arg("alignment") = "arc_length",
       "The mean of several demonstrations of one skill, relative to their targets, as one.");
+  m.def(
+      "require_executable",
+      [](const Demonstration& demonstration, double reach) {
+        DemonstrationLimits limits;
+        limits.reach = reach;
+        limits.validate();
+        require_executable(demonstration, limits);
+      },
+      py::arg("demonstration"), py::arg("reach"),
+      "Raises ValueError, with the row, for a demonstration that an arm cannot have made or cannot "
+      "follow: farther than `reach` (m) from the origin of its frame, faster, with holes. The node "
+      "asks the same.");
   m.def("load_demonstration", &load_demonstration, py::arg("path"),
         "Read the CSV form; raises ValueError with file, line, column, value and bound.");
   m.def(

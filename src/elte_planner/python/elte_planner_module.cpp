@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "elte_planner/confidence_radius.hpp"
-#include "elte_planner/demonstration.hpp"
-#include "elte_planner/demonstration_limits.hpp"
 #include "elte_planner/edit_problem.hpp"
 #include "elte_planner/elte_energy.hpp"
 #include "elte_planner/endpoint_solver.hpp"
@@ -211,18 +209,6 @@ PYBIND11_MODULE(_core, m) {
   bind_obstacles(m);
   bind_planners(m);
   bind_demonstration(m);
-  m.def(
-      "require_executable",
-      [](const Demonstration& demonstration, double reach) {
-        DemonstrationLimits limits;
-        limits.reach = reach;
-        limits.validate();
-        require_executable(demonstration, limits);
-      },
-      py::arg("demonstration"), py::arg("reach"),
-      "Raises ValueError, with the row, for a demonstration that an arm cannot have made or cannot "
-      "follow: farther than `reach` (m) from the origin of its frame, faster, with holes. The node "
-      "asks the same.");
   m.def("confidence_radius", &confidence_radius, py::arg("covariance"), py::arg("probability"),
         "Radius of the smallest l1 ball that holds the probability; covariance (d, d), d <= 3.");
   m.def(

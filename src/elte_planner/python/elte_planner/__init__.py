@@ -32,6 +32,7 @@ from elte_planner._core import (
     load_demonstration,
     planner_names,
     polyline_clearance,
+    require_executable,
     save_demonstration,
     shape_loss,
     solve,
@@ -43,5 +44,6 @@ __all__ = [
     "AvoidanceSolution", "Demonstration", "EndpointSolver", "Obstacle", "Plan", "PlanResult", "Planner",
     "PointConstraint", "Session", "SkillPlanner", "Solution", "Via", "avoid", "ball", "blend_orientations", "box",
     "box_obstacle", "combine", "confidence_radius", "disc_obstacle", "equality", "half_space", "load_bag",
-    "load_demonstration", "planner_names", "polyline_clearance", "save_demonstration", "shape_loss", "solve",
+    "load_demonstration", "planner_names", "polyline_clearance", "require_executable",
+    "save_demonstration", "shape_loss", "solve",
 ]

@@ -155,7 +155,7 @@ def evaluate_files(options, predictors):
 
 
 def parser(name, description):
-    result = argparse.ArgumentParser(prog=name, description=description)
+    result = argparse.ArgumentParser(prog=name, description=description, allow_abbrev=False)
     result.add_argument("--seeds", type=int, default=20, help="simulated motions 1 .. SEEDS")
     result.add_argument("--duration", type=float, default=40.0, help="of each, s")
     result.add_argument("--motions", nargs="+", choices=MOTIONS, default=MOTIONS)
