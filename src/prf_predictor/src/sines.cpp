@@ -115,9 +115,10 @@ Sines::Sines(double window, double count) : window_(window), count_(static_cast<
           "a whole number 1 .. 8");
 }
 
-std::shared_ptr<const Continuation> Sines::fit(const std::deque<Sample>& samples) const {
+std::shared_ptr<const Continuation> Sines::fit(const std::deque<Sample>& samples,
+                                               const Continuation* before) const {
   const double now = samples.back().time;
-  if (now - samples.front().time < kShortest) return Hold().fit(samples);
+  if (now - samples.front().time < kShortest) return Hold().fit(samples, before);
   const auto rows = static_cast<Eigen::Index>(samples.size());
   Eigen::VectorXd t(rows);
   Eigen::MatrixX3d y(rows, 3);

@@ -29,7 +29,8 @@ class Standstill : public Continuation {
 
 }  // namespace
 
-std::shared_ptr<const Continuation> Hold::fit(const std::deque<Sample>& samples) const {
+std::shared_ptr<const Continuation> Hold::fit(const std::deque<Sample>& samples,
+                                              const Continuation* /*before*/) const {
   return std::make_shared<Standstill>(samples.back().position);
 }
 
@@ -52,7 +53,7 @@ void WindowPredictor::advance(double dt) { time_ += dt; }
 void WindowPredictor::correct(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
   samples_.push_back({time_, position});
   while (samples_.front().time < time_ - extrapolation_->window()) samples_.pop_front();
-  path_ = extrapolation_->fit(samples_);
+  path_ = extrapolation_->fit(samples_, path_.get());
   noise_ = covariance;
   scorer_.observe(time_, position, covariance.diagonal(), kMemory);
   ForecastScorer::Predictions predictions;
@@ -76,7 +77,7 @@ PointForecast WindowPredictor::forecast(double horizon) const {
   // The standard deviation is linear between the scorer's horizons.
   const BetweenHorizons between = between_horizons(age);
   const auto sigma = [&](std::size_t k) -> Eigen::Array3d {
-    const Eigen::Array3d inflation = scorer_.score(k).inflation.max(0.0).sqrt();
+    const Eigen::Array3d inflation = scorer_.inflation(k).max(0.0).sqrt();
     return kSpeed * ForecastScorer::kHorizons[k] * inflation;
   };
   const auto& all = ForecastScorer::kHorizons;

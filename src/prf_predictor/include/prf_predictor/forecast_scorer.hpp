@@ -19,6 +19,8 @@
 #include <deque>
 #include <memory>
 
+#include "prf_predictor/periodic/motion_change.hpp"
+
 namespace prf_predictor {
 
 class ForecastScorer {
@@ -27,23 +29,16 @@ class ForecastScorer {
   // Errors of predictions that are so far apart in time count as independent, s.
   static constexpr std::array<double, kHorizons.size()> kIndependent{0.3, 0.5, 0.7, 1.0, 1.5};
 
+  static constexpr double kShort = 0.3;  // s
+
   // For one horizon.
   struct Prediction {
     Eigen::Matrix3Xd candidates;                         // position by each candidate, m
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // that the predictor published, m
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();  // predicted, of each axis, m^2
+    Eigen::Array3d calibrated = Eigen::Array3d::Zero();  // the same, as past errors say
   };
   using Predictions = std::array<Prediction, kHorizons.size()>;
-
-  struct Score {
-    double evidence = 0.0;         // T, s
-    Eigen::ArrayXd squared_error;  // E, m^2
-    Eigen::ArrayXd log_error;      // L
-    // G, times (n + 3) / (n + 1) for n = T / kIndependent errors, because a variance estimated from
-    // few errors is uncertain. Starts at 1. Negative when the errors are below the measurement
-    // noise.
-    Eigen::Array3d inflation = Eigen::Array3d::Ones();
-  };
 
   explicit ForecastScorer(Eigen::Index candidates);
 
@@ -53,10 +48,22 @@ class ForecastScorer {
   // Predictions from `time`, after observe() of the same time.
   void record(double time, Predictions predictions);
 
-  [[nodiscard]] Score score(std::size_t horizon) const;
-  // Of the predictions that came due with the latest measurement: the largest squared error beside
-  // the variance that was predicted, mean of the axes; 0: none came due.
-  [[nodiscard]] double worst_ratio() const { return worst_ratio_; }
+  // The motion is another one: past errors tell nothing about it, nor will those of predictions
+  // that were made before.
+  void forget();
+
+  // T, s.
+  [[nodiscard]] double evidence(std::size_t horizon) const { return sums_[horizon].evidence; }
+  // L of every candidate; 0 without evidence.
+  [[nodiscard]] Eigen::ArrayXd log_error(std::size_t horizon) const;
+  // E, m^2; 0 without evidence.
+  [[nodiscard]] double squared_error(std::size_t horizon, Eigen::Index candidate) const;
+  // G, times (n + 3) / (n + 1) for n = T / kIndependent errors, because a variance estimated from
+  // few errors is uncertain. Starts at 1. Negative when the errors are below the measurement noise.
+  [[nodiscard]] Eigen::Array3d inflation(std::size_t horizon) const;
+  // The most surprising error of the short predictions (kShort) that came due between the latest
+  // two measurements; none when these are too far apart to tell where the target was between them.
+  [[nodiscard]] const ObservedError& worst() const { return worst_; }
 
  private:
   struct Entry {
@@ -75,7 +82,7 @@ class ForecastScorer {
   [[nodiscard]] Eigen::Vector3d curvature(double time, const Eigen::Vector3d& position) const;
 
   double usual_interval_ = 0.0;  // s, between measurements
-  double worst_ratio_ = 0.0;
+  ObservedError worst_;
   double earlier_time_ = -1.0;  // of the measurement before the latest
   Eigen::Vector3d earlier_position_ = Eigen::Vector3d::Zero();
   bool has_measurement_ = false;

@@ -18,17 +18,10 @@ struct PeriodicParams {
   double harmonic_amplitude = 0.0;
   double damping_ratio_stepping = 0.0;
   double damping_ratio_calm = 0.0;
-  // Steps of the robot.
-  double step_slowest = 0.0;
-  double step_fastest = 0.0;
-  double step_count = 0.0;
-  double step_amplitude = 0.0;
-  double step_damping_ratio = 0.0;
-  double step_second_harmonic = 0.0;
-  double step_second_harmonic_amplitude = 0.0;
-  double step_third_harmonic = 0.0;
-  double step_third_harmonic_amplitude = 0.0;
-  double step_harmonic_damping_ratio = 0.0;
+  // Fast motion that is soon forgotten, as of a robot that steps.
+  double shake_frequency = 0.0;
+  double shake_damping_ratio = 0.0;
+  double shake_amplitude = 0.0;
   // Slow motion without a frequency.
   double drift_density_stepping = 0.0;
   double drift_density_calm = 0.0;

@@ -9,7 +9,8 @@
 // the forecast is the mixture
 //   m = sum_i w_i m_i,   P = sum_i w_i (P_i + (m_i - m)(m_i - m)^T),
 // whose standard deviations are then calibrated by the errors of past forecasts
-// (covariance_calibration.hpp), and made fit for a change of the motion (motion_change.hpp).
+// (covariance_calibration.hpp), and made fit for a change of the motion (motion_change.hpp). A
+// measurement that shows a change unsettles what was learnt.
 #pragma once
 
 #include <deque>
@@ -39,6 +40,11 @@ class PeriodicPredictor : public TargetPredictor {
   [[nodiscard]] std::optional<Periodicity> periodicity(double horizon) const override;
 
  private:
+  // Whether this measurement shows that the motion is another one, before the filters have it.
+  [[nodiscard]] bool shows_change(const Eigen::Vector3d& position,
+                                  const Eigen::Matrix3d& covariance);
+  // What was learnt of the motion is as uncertain as at first.
+  void unsettle(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance);
   // Weights, samples and predictions after the filters have had the measurement.
   void after_measurement(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance);
   void record_predictions();

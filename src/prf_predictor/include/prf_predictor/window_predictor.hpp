@@ -29,27 +29,30 @@ class Extrapolation {
  public:
   virtual ~Extrapolation() = default;
   [[nodiscard]] virtual double window() const = 0;  // s of samples that it uses
+  // `before`: what was fitted before the latest sample came; null: nothing. Not all of a fit need
+  // be made anew.
   [[nodiscard]] virtual std::shared_ptr<const Continuation> fit(
-      const std::deque<Sample>& samples) const = 0;
+      const std::deque<Sample>& samples, const Continuation* before) const = 0;
 };
 
 // Stays at the last position.
 class Hold : public Extrapolation {
  public:
   [[nodiscard]] double window() const override { return 0.0; }
-  [[nodiscard]] std::shared_ptr<const Continuation> fit(
-      const std::deque<Sample>& samples) const override;
+  [[nodiscard]] std::shared_ptr<const Continuation> fit(const std::deque<Sample>& samples,
+                                                        const Continuation* before) const override;
 };
 
-// x_k = m + sum_i a_i (x_{k-i} - m) of each axis, on a grid of `period`, fitted by regularised
-// least squares to the window and iterated.
+// x_k = m + sum_i a_i (x_{k-i} - m) of each axis, on a grid of 1/15 s, fitted by regularised least
+// squares to the window and iterated. The coefficients of one axis after the other are fitted anew,
+// one for each sample.
 class Autoregressive : public Extrapolation {
  public:
   Autoregressive(double window, double order);  // s, > 0; lags, a whole number 1 .. 60
 
   [[nodiscard]] double window() const override { return window_; }
-  [[nodiscard]] std::shared_ptr<const Continuation> fit(
-      const std::deque<Sample>& samples) const override;
+  [[nodiscard]] std::shared_ptr<const Continuation> fit(const std::deque<Sample>& samples,
+                                                        const Continuation* before) const override;
 
  private:
   double window_;
@@ -64,8 +67,8 @@ class Sines : public Extrapolation {
   Sines(double window, double count);  // s, > 0; a whole number 1 .. 8
 
   [[nodiscard]] double window() const override { return window_; }
-  [[nodiscard]] std::shared_ptr<const Continuation> fit(
-      const std::deque<Sample>& samples) const override;
+  [[nodiscard]] std::shared_ptr<const Continuation> fit(const std::deque<Sample>& samples,
+                                                        const Continuation* before) const override;
 
  private:
   double window_;

@@ -27,13 +27,13 @@ Eigen::Array3d CovarianceCalibration::inflated_sigma(double age, const Eigen::Ar
   const auto& all = ForecastScorer::kHorizons;
   const Eigen::Array3d now = innovation_inflation_.max(least_inflation_);
   if (age < all.front()) {
-    const Eigen::Array3d first = scorer.score(0).inflation.max(least_inflation_);
+    const Eigen::Array3d first = scorer.inflation(0).max(least_inflation_);
     return (variance * (now + age / all.front() * (first - now))).sqrt();
   }
   const BetweenHorizons between = between_horizons(age);
   const auto sigma_at = [&](std::size_t k) -> Eigen::Array3d {
     const double beyond = age > all.back() ? age / all.back() : 1.0;
-    return beyond * (predicted_[k] * scorer.score(k).inflation.max(least_inflation_)).sqrt();
+    return beyond * (predicted_[k] * scorer.inflation(k).max(least_inflation_)).sqrt();
   };
   return sigma_at(between.lower) +
          between.fraction * (sigma_at(between.upper) - sigma_at(between.lower));

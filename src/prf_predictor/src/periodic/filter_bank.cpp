@@ -23,17 +23,10 @@ std::vector<double> geometric(double first, double last, int count) {
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 DisturbanceModel stepping(const PeriodicParams& p) {
-  DisturbanceModel model{
-      {p.drift_density_stepping, p.drift_time_constant},
-      {{p.wander_frequency, p.wander_damping_ratio, p.wander_amplitude_stepping},
-       {p.step_second_harmonic, p.step_harmonic_damping_ratio, p.step_second_harmonic_amplitude},
-       {p.step_third_harmonic, p.step_harmonic_damping_ratio, p.step_third_harmonic_amplitude}},
-      p.damping_ratio_stepping};
-  const double amplitude = p.step_amplitude / std::sqrt(p.step_count);
-  for (const double W : geometric(p.step_slowest, p.step_fastest, static_cast<int>(p.step_count))) {
-    model.oscillators.push_back({W, p.step_damping_ratio, amplitude});
-  }
-  return model;
+  return {{p.drift_density_stepping, p.drift_time_constant},
+          {{p.wander_frequency, p.wander_damping_ratio, p.wander_amplitude_stepping},
+           {p.shake_frequency, p.shake_damping_ratio, p.shake_amplitude}},
+          p.damping_ratio_stepping};
 }
 
 DisturbanceModel calm(const PeriodicParams& p) {
@@ -120,6 +113,12 @@ void FilterBank::begin(const Eigen::Vector3d& position, double variance) {
   for (const Hypothesis& hypothesis : hypotheses_->all) {
     beliefs_.emplace_back(hypotheses_->groups[hypothesis.group], hypothesis.used, position,
                           variance);
+  }
+}
+
+void FilterBank::unsettle(double variance) {
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    beliefs_[i].unsettle(hypotheses_->groups[hypotheses_->all[i].group], variance);
   }
 }
 

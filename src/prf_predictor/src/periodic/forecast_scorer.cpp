@@ -28,7 +28,7 @@ ForecastScorer::ForecastScorer(Eigen::Index candidates) {
 void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
                              const Eigen::Vector3d& variance, double memory) {
   const double passed = time - measured_time_;
-  worst_ratio_ = 0.0;
+  worst_ = ObservedError();
   if (has_measurement_ && passed > 0) {
     usual_interval_ =
         usual_interval_ > 0 ? usual_interval_ + kUsualShare * (passed - usual_interval_) : passed;
@@ -58,11 +58,11 @@ void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
         sums.squared_error += weight * squared;
         sums.log_error += weight * (squared + variance.sum()).log();
         const Eigen::Array3d own = (prediction.position - truth).array().square();
-        worst_ratio_ = std::max(worst_ratio_,
-                                (own / (prediction.variance.array() + variance.array())).sum() / 3);
-        sums.inflation += weight *
-                          ((prediction.position - truth).array().square() - variance.array()) /
-                          prediction.variance.array();
+        if (kHorizons[k] < kShort && passed <= kShortGap) {
+          const ObservedError observed{kHorizons[k], own, prediction.calibrated + variance.array()};
+          if (!(observed.ratio() <= worst_.ratio())) worst_ = observed;
+        }
+        sums.inflation += weight * (own - variance.array()) / prediction.variance.array();
       }
     }
   }
@@ -93,17 +93,29 @@ void ForecastScorer::record(double time, Predictions predictions) {
       Entry{time, std::min(duration, kLongestGap), std::move(predictions)}));
 }
 
-ForecastScorer::Score ForecastScorer::score(std::size_t horizon) const {
+void ForecastScorer::forget() {
+  entries_.clear();
+  for (Sums& sums : sums_) {
+    sums.evidence = 0.0;
+    sums.squared_error.setZero();
+    sums.log_error.setZero();
+    sums.inflation.setZero();
+  }
+}
+
+Eigen::ArrayXd ForecastScorer::log_error(std::size_t horizon) const {
+  return sums_[horizon].log_error / std::max(sums_[horizon].evidence, kTick);
+}
+
+double ForecastScorer::squared_error(std::size_t horizon, Eigen::Index candidate) const {
+  return sums_[horizon].squared_error(candidate) / std::max(sums_[horizon].evidence, kTick);
+}
+
+Eigen::Array3d ForecastScorer::inflation(std::size_t horizon) const {
   const Sums& sums = sums_[horizon];
-  Score score;
-  score.evidence = sums.evidence;
-  score.squared_error = sums.squared_error / std::max(sums.evidence, kTick);
-  score.log_error = sums.log_error / std::max(sums.evidence, kTick);
   const double prior = kFirstEvidence * std::exp(-sums.evidence);
   const double errors = sums.evidence / kIndependent[horizon];
-  score.inflation =
-      (errors + 3) / (errors + 1) * (prior + sums.inflation) / (prior + sums.evidence);
-  return score;
+  return (errors + 3) / (errors + 1) * (prior + sums.inflation) / (prior + sums.evidence);
 }
 
 BetweenHorizons between_horizons(double horizon) {

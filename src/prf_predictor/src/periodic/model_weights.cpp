@@ -4,20 +4,23 @@
 #include <cmath>
 
 namespace prf_predictor {
+namespace {
+
+constexpr double kOwn = 1.5;  // independent errors
+
+}  // namespace
 
 ModelWeights::ModelWeights(const Eigen::ArrayXd& prior) : log_prior_(prior) {
   for (double& value : log_prior_) value = std::log(value);
 }
 
 void ModelWeights::update(const ForecastScorer& scorer) {
+  Eigen::ArrayXd evidence = Eigen::ArrayXd::Zero(log_prior_.size());
   for (std::size_t k = 0; k < weights_.size(); ++k) {
-    const ForecastScorer::Score score = scorer.score(k);
-    Eigen::ArrayXd weight = log_prior_;
-    if (score.evidence > 0) {
-      weight -= 1.5 * score.evidence / ForecastScorer::kIndependent[k] * score.log_error;
-    } else if (k > 0) {
-      weight = weights_[k - 1].log();
-    }
+    const double errors = scorer.evidence(k) / ForecastScorer::kIndependent[k];
+    evidence *= std::exp(-errors / kOwn);
+    evidence -= 1.5 * errors * scorer.log_error(k);
+    Eigen::ArrayXd weight = log_prior_ + evidence;
     weight = (weight - weight.maxCoeff()).exp();
     weight /= weight.sum();
     weights_[k] = weight;

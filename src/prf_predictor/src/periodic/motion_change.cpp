@@ -7,7 +7,8 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kShortest = 0.005;  // s; the noise of nearer measurements hides the velocity
+constexpr double kShortest = 0.005;    // s; the noise of nearer measurements hides the velocity
+constexpr double kShortestAge = 0.02;  // s, the same for an error
 
 }  // namespace
 
@@ -17,8 +18,8 @@ void MotionChange::begin(const Eigen::Vector3d& position) {
 }
 
 void MotionChange::observe(const Eigen::Vector3d& position, const Eigen::Vector3d& noise,
-                           double elapsed, double ratio) {
-  factor_ = std::max({1.0, 1.0 + (factor_ - 1.0) * std::exp(-elapsed / kRecovery), ratio / kUsual});
+                           double elapsed) {
+  changed2_ *= std::exp(-2 * elapsed / kRecovery);
   if (elapsed > kShortest) {
     const double share = 1 - std::exp(-elapsed / kMemory);
     const Eigen::Array3d velocity = (position - position_) / elapsed;
@@ -30,8 +31,16 @@ void MotionChange::observe(const Eigen::Vector3d& position, const Eigen::Vector3
   position_ = position;
 }
 
+bool MotionChange::judge(const ObservedError& error) {
+  if (error.ratio() <= kSurprise) return false;
+  changed2_ = changed2_.max(error.squared / std::pow(std::max(error.age, kShortestAge), 2));
+  return true;
+}
+
 Eigen::Array3d MotionChange::least_variance(double age) const {
-  return std::min(kRate * age, 1.0) * (age * age * speed2_.max(0.0)).min(2 * spread2_);
+  const Eigen::Array3d before =
+      (age * age * speed2_.max(0.0)).min(2 * spread2_).max(std::pow(kLeastSpeed * age, 2));
+  return (kShare * kShare * before).max(changed2_ * std::pow(std::min(age, kLongest), 2));
 }
 
 }  // namespace prf_predictor

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <prf_core/require.hpp>
 
-#include "prf_predictor/periodic/spectral_model.hpp"
-
 namespace prf_predictor {
 
 using prf_core::require;
@@ -28,16 +26,9 @@ const std::vector<PeriodicParams::Member>& PeriodicParams::members() {
       {"harmonic_amplitude", &P::harmonic_amplitude},
       {"damping_ratio_stepping", &P::damping_ratio_stepping},
       {"damping_ratio_calm", &P::damping_ratio_calm},
-      {"step_slowest", &P::step_slowest},
-      {"step_fastest", &P::step_fastest},
-      {"step_count", &P::step_count},
-      {"step_amplitude", &P::step_amplitude},
-      {"step_damping_ratio", &P::step_damping_ratio},
-      {"step_second_harmonic", &P::step_second_harmonic},
-      {"step_second_harmonic_amplitude", &P::step_second_harmonic_amplitude},
-      {"step_third_harmonic", &P::step_third_harmonic},
-      {"step_third_harmonic_amplitude", &P::step_third_harmonic_amplitude},
-      {"step_harmonic_damping_ratio", &P::step_harmonic_damping_ratio},
+      {"shake_frequency", &P::shake_frequency},
+      {"shake_damping_ratio", &P::shake_damping_ratio},
+      {"shake_amplitude", &P::shake_amplitude},
       {"drift_density_stepping", &P::drift_density_stepping},
       {"drift_density_calm", &P::drift_density_calm},
       {"drift_time_constant", &P::drift_time_constant},
@@ -68,18 +59,12 @@ void PeriodicParams::validate() const {
     prf_core::require_between(name, this->*member, kLeast, kMost);
   }
   require(fastest > slowest, "fastest", fastest, "> slowest");
-  require(step_fastest > step_slowest, "step_fastest", step_fastest, "> step_slowest");
   const auto is_whole = [](double value) { return value == std::floor(value); };
   require(is_whole(frequency_count) && frequency_count >= 2 && frequency_count <= 40,
           "frequency_count", frequency_count, "a whole number 2 .. 40");
-  // Beside the steps a model has a drift, a wander, two harmonics and two platform oscillators.
-  constexpr int kMostSteps = SpectralBelief::kMostComponents - 6;
-  require(is_whole(step_count) && step_count >= 2 && step_count <= kMostSteps, "step_count",
-          step_count, "a whole number 2 .. " + std::to_string(kMostSteps));
   for (const auto& [name, ratio] : {std::pair{"damping_ratio_stepping", damping_ratio_stepping},
                                     {"damping_ratio_calm", damping_ratio_calm},
-                                    {"step_damping_ratio", step_damping_ratio},
-                                    {"step_harmonic_damping_ratio", step_harmonic_damping_ratio},
+                                    {"shake_damping_ratio", shake_damping_ratio},
                                     {"wander_damping_ratio", wander_damping_ratio}}) {
     require(ratio < 1, name, ratio, "> 0 and < 1");
   }

@@ -14,7 +14,6 @@ namespace {
 constexpr double kVelocityStep = 0.01;   // s, of the difference quotient
 constexpr double kLeastVariance = 1e-8;  // m^2, of the candidates that are no hypotheses
 constexpr double kShortest = 0.1;        // s, over which a velocity is as uncertain as a position
-constexpr double kMemoryAfterChange = 0.1;  // s, of past errors while the motion is another one
 constexpr double kNegligibleWeight = 1e-3;  // such candidates are left out of a mixture
 
 // Of the one oscillation whose frequency a filter estimates, as in ekf.yaml.
@@ -55,6 +54,7 @@ std::unique_ptr<TargetPredictor> PeriodicPredictor::clone() const {
 
 void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance) {
   samples_.clear();
+  autoregression_.reset();
   scorer_ = ForecastScorer(static_cast<Eigen::Index>(filters_.size()) + kOthers);
   calibration_ = CovarianceCalibration(params_.innovation_memory, params_.least_noise_share,
                                        params_.least_inflation);
@@ -63,6 +63,7 @@ void PeriodicPredictor::begin(const Eigen::Vector3d& position, const Eigen::Matr
   filters_.begin(position, covariance.trace() / 3);
   oscillation_.begin(position, covariance);
   change_.begin(position);
+  scorer_.observe(time_, position, covariance.diagonal(), params_.memory);
   after_measurement(position, covariance);
 }
 
@@ -75,20 +76,35 @@ void PeriodicPredictor::advance(double dt) {
 
 void PeriodicPredictor::correct(const Eigen::Vector3d& position,
                                 const Eigen::Matrix3d& covariance) {
-  const PointForecast expected = mixture(0, *filters_.transitions(0));
-  const double elapsed = since_measurement_;
-  const Eigen::Array3d error2 = (position - expected.position).array().square();
-  const Eigen::Array3d known =
-      calibration_.sigma(elapsed, expected.covariance.diagonal().head<3>(), scorer_).square();
-  const double innovation_ratio = (error2 / (known + covariance.diagonal().array())).mean();
-  calibration_.observe(position - expected.position, covariance.diagonal(),
-                       expected.covariance.diagonal().head<3>(), since_measurement_);
+  scorer_.observe(time_, position, covariance.diagonal(), params_.memory);
+  if (shows_change(position, covariance)) unsettle(position, covariance);
+  change_.observe(position, covariance.diagonal(), since_measurement_);
   since_measurement_ = 0.0;
   filters_.correct(position, covariance.trace() / 3);
   oscillation_.correct(position, covariance);
   after_measurement(position, covariance);
-  change_.observe(position, covariance.diagonal(), elapsed,
-                  std::max(innovation_ratio, scorer_.worst_ratio()));
+}
+
+bool PeriodicPredictor::shows_change(const Eigen::Vector3d& position,
+                                     const Eigen::Matrix3d& covariance) {
+  const PointForecast expected = mixture(0, *filters_.transitions(0));
+  const Eigen::Vector3d variance = expected.covariance.diagonal().head<3>();
+  const Eigen::Vector3d innovation = position - expected.position;
+  const ObservedError error{since_measurement_, innovation.array().square(),
+                            calibration_.sigma(since_measurement_, variance, scorer_).square() +
+                                covariance.diagonal().array()};
+  calibration_.observe(innovation, covariance.diagonal(), variance, since_measurement_);
+  const bool is_sudden = change_.judge(error);
+  return change_.judge(scorer_.worst()) || is_sudden;
+}
+
+void PeriodicPredictor::unsettle(const Eigen::Vector3d& position,
+                                 const Eigen::Matrix3d& covariance) {
+  filters_.unsettle(covariance.trace() / 3);
+  oscillation_.begin(position, covariance);
+  scorer_.forget();
+  calibration_ = CovarianceCalibration(params_.innovation_memory, params_.least_noise_share,
+                                       params_.least_inflation);
 }
 
 void PeriodicPredictor::after_measurement(const Eigen::Vector3d& position,
@@ -96,9 +112,7 @@ void PeriodicPredictor::after_measurement(const Eigen::Vector3d& position,
   calibration_.set_noise(covariance.diagonal());
   samples_.push_back({time_, position});
   while (samples_.front().time < time_ - autoregressive_.window()) samples_.pop_front();
-  autoregression_ = autoregressive_.fit(samples_);
-  scorer_.observe(time_, position, covariance.diagonal(),
-                  change_.has_changed() ? kMemoryAfterChange : params_.memory);
+  autoregression_ = autoregressive_.fit(samples_, autoregression_.get());
   weights_.update(scorer_);
   record_predictions();
 }
@@ -122,6 +136,8 @@ void PeriodicPredictor::record_predictions() {
     predictions[k].position = published.position;
     predictions[k].variance = published.covariance.diagonal().head<3>();
     calibration_.set_predicted(k, predictions[k].variance);
+    predictions[k].calibrated =
+        calibration_.sigma(horizon, predictions[k].variance, scorer_).square();
   }
   scorer_.record(time_, std::move(predictions));
 }
@@ -139,10 +155,7 @@ SpectralBelief::Forecast PeriodicPredictor::other(Eigen::Index which, double hor
   forecast.velocity = (position(horizon + kVelocityStep) - forecast.position) / kVelocityStep;
   const auto row = static_cast<Eigen::Index>(filters_.size()) + which;
   const BetweenHorizons between = between_horizons(age);
-  const auto variance_at = [&](std::size_t k) {
-    const ForecastScorer::Score score = scorer_.score(k);
-    return score.squared_error(row) / 3;
-  };
+  const auto variance_at = [&](std::size_t k) { return scorer_.squared_error(k, row) / 3; };
   const double first = ForecastScorer::kHorizons.front();
   const double variance =
       kLeastVariance +
@@ -184,8 +197,7 @@ PointForecast PeriodicPredictor::forecast(double horizon) const {
   PointForecast forecast = mixture(horizon, *filters_.transitions(horizon));
   const double age = since_measurement_ + horizon;
   const Eigen::Array3d variance = forecast.covariance.diagonal().head<3>();
-  const Eigen::Array3d calibrated =
-      change_.factor() * calibration_.sigma(age, variance, scorer_).square();
+  const Eigen::Array3d calibrated = calibration_.sigma(age, variance, scorer_).square();
   const Eigen::Array3d scale = (calibrated.max(change_.least_variance(age)) / variance).sqrt();
   Eigen::Matrix<double, 6, 1> both;
   both << scale, scale;

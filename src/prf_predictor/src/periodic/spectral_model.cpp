@@ -48,26 +48,31 @@ SpectralBelief::SpectralBelief(const Components& components,
     : used_(std::move(used)) {
   const auto size = 2 * static_cast<Eigen::Index>(used_->size());
   x_.setZero(size, 3);
-  P_.setZero(size, size);
-  Eigen::Index row = 0;
-  double unknown = variance;
-  for (const int component : *used_) {
-    if (component == 0) {
-      x_.row(row) = position;
-      P_(row + 1, row + 1) = std::min(components.drift.prior_variance(), kDriftSpeed * kDriftSpeed);
-    } else {
-      const DampedOscillator& oscillator =
-          components.oscillators[static_cast<std::size_t>(component - 1)];
-      P_(row, row) = std::pow(oscillator.sigma, 2);
-      P_(row + 1, row + 1) = std::pow(oscillator.sigma * oscillator.frequency, 2);
-      unknown += P_(row, row);
-    }
-    row += 2;
-  }
   for (Eigen::Index i = 0; i < size; i += 2) {
-    if ((*used_)[static_cast<std::size_t>(i / 2)] == 0) P_(i, i) = unknown;
+    if ((*used_)[static_cast<std::size_t>(i / 2)] == 0) x_.row(i) = position;
   }
+  unsettle(components, variance);
   correct(position, variance);
+}
+
+void SpectralBelief::unsettle(const Components& components, double variance) {
+  P_.setZero(x_.rows(), x_.rows());
+  double unknown = variance;
+  for (Eigen::Index row = 0; row < x_.rows(); row += 2) {
+    const int component = (*used_)[static_cast<std::size_t>(row / 2)];
+    if (component == 0) {
+      P_(row + 1, row + 1) = std::min(components.drift.prior_variance(), kDriftSpeed * kDriftSpeed);
+      continue;
+    }
+    const DampedOscillator& oscillator =
+        components.oscillators[static_cast<std::size_t>(component - 1)];
+    P_(row, row) = std::pow(oscillator.sigma, 2);
+    P_(row + 1, row + 1) = std::pow(oscillator.sigma * oscillator.frequency, 2);
+    unknown += P_(row, row);
+  }
+  for (Eigen::Index row = 0; row < x_.rows(); row += 2) {
+    if ((*used_)[static_cast<std::size_t>(row / 2)] == 0) P_(row, row) = unknown;
+  }
 }
 
 void SpectralBelief::advance(const std::vector<Transition>& transitions) {

@@ -7,8 +7,8 @@
 // [slowest, fastest], and its double,
 //   x(t) = o(W) + o(2 W) + disturbance
 // with o a damped oscillator (spectral_model.hpp) whose amplitude and phase on each axis are its
-// state. There are two disturbance models: stepping (drift, wander, the robot's steps and two of
-// their harmonics) and calm (a little drift and wander). Aperiodic hypotheses are a drift alone:
+// state. There are two disturbance models: stepping (drift, wander, and fast shaking that is soon
+// forgotten) and calm (a little drift and wander). Aperiodic hypotheses are a drift alone:
 // constant velocity, velocities that decay, and rest.
 #pragma once
 
@@ -46,6 +46,8 @@ class FilterBank {
 
   // All filters start from this measurement. `variance`: of each axis, m^2.
   void begin(const Eigen::Vector3d& position, double variance);
+  // The motion is another one; `variance`: of the measurement that shows it.
+  void unsettle(double variance);
   void advance(double dt);
   void correct(const Eigen::Vector3d& position, double variance);
 

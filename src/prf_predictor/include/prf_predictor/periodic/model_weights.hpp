@@ -9,8 +9,10 @@
 // the probability is
 //   w_i ~ prior_i exp(-3/2 n L_i)
 // A mean of squares in place of the logarithms would remember one large error, as of a model before
-// it has learnt the motion, long after it has become good. A horizon without evidence takes the
-// weights of the next shorter one as they are.
+// it has learnt the motion, long after it has become good. Errors at long horizons come late, so
+// those at the next shorter one count until there are some: with M_ik = -3/2 n L_i at the horizon
+// k,
+//   ln w_ik = ln prior_i + S_ik + constant,   S_ik = M_ik + exp(-n_k / kOwn) S_i(k-1)
 #pragma once
 
 #include <Eigen/Core>

@@ -47,7 +47,7 @@ struct Components {
 // The belief of one model, which is the sum of some of the components, given by their numbers.
 class SpectralBelief {
  public:
-  static constexpr int kMostComponents = 12;
+  static constexpr int kMostComponents = 5;
 
   struct Forecast {
     Eigen::Vector3d position;
@@ -58,6 +58,8 @@ class SpectralBelief {
   SpectralBelief(const Components& components, std::shared_ptr<const std::vector<int>> used,
                  const Eigen::Vector3d& position, double variance);
 
+  // What is not measured of the components becomes as uncertain as at first; means stay.
+  void unsettle(const Components& components, double variance);
   void advance(const std::vector<Transition>& transitions);
   void correct(const Eigen::Vector3d& position, double variance);
   [[nodiscard]] Forecast forecast(const std::vector<Transition>& transitions) const;
