@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace camera_sim {
 namespace {
@@ -17,6 +18,20 @@ cv::Vec3b to_bgr(const Colour& colour) {
     return static_cast<unsigned char>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
   };
   return {level(colour[2]), level(colour[1]), level(colour[0])};
+}
+
+// Of the pixels first .. last of row y those within a triangle, and a pixel more on each side.
+std::pair<int, int> columns_inside(const Eigen::Matrix3d& to_barycentric, int y, int first,
+                                   int last) {
+  double low = first, high = last;
+  for (int i = 0; i < 3; ++i) {
+    const double slope = to_barycentric(i, 0);
+    const double offset = to_barycentric(i, 1) * y + to_barycentric(i, 2);
+    if (slope > 0.0) low = std::max(low, -offset / slope - 1.0);
+    if (slope < 0.0) high = std::min(high, -offset / slope + 1.0);
+  }
+  if (!(low <= high)) return {0, -1};
+  return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high))};
 }
 
 }  // namespace
@@ -59,7 +74,8 @@ void ZBuffer::draw(const Triangle& triangle, const Colour& colour) {
   const int x_last = last(corners.col(0).maxCoeff(), camera_.width);
   const cv::Vec3b bgr = to_bgr(colour);
   for (int y = first(corners.col(1).minCoeff()); y <= y_last; ++y) {
-    for (int x = x_first; x <= x_last; ++x) {
+    const auto [row_first, row_last] = columns_inside(to_barycentric, y, x_first, x_last);
+    for (int x = row_first; x <= row_last; ++x) {
       const Eigen::Vector3d weights = to_barycentric * Eigen::Vector3d(x, y, 1.0);
       if (weights.minCoeff() < 0.0) continue;
       const float inverse_depth = static_cast<float>(weights.dot(inverse_depths));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records topics into one LZ4 bag and loses none of their messages:
-//   recorder BAG TOPIC [TOPIC ...]
+// Records topics into one bag and loses none of their messages:
+//   recorder [--lz4] BAG TOPIC [TOPIC ...]
+//
+// With --lz4 it compresses, which finds next to nothing in images with noise.
 //
 // Stands in for `rosbag record`, whose queue of 100 messages a topic overflows when a trial runs
 // faster than the machine can write, and which says nothing about it. Until it is closed the bag is
@@ -32,10 +34,10 @@ constexpr std::uintmax_t kReserve = 64ULL << 20;  // bytes: less is a full disk,
 
 class Recorder {
  public:
-  Recorder(const std::string& bag, const std::vector<std::string>& topics)
+  Recorder(const std::string& bag, const std::vector<std::string>& topics, bool compress)
       : file_(bag), active_(bag + ".active"), bag_(active_, rosbag::bagmode::Write) {
     require_space();
-    bag_.setCompression(rosbag::compression::LZ4);
+    if (compress) bag_.setCompression(rosbag::compression::LZ4);
     for (const std::string& topic : topics) {
       ros::SubscribeOptions options;
       options.initByFullCallbackType<const Event&>(
@@ -89,9 +91,11 @@ class Recorder {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "recorder");
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool compress = !words.empty() && words.front() == "--lz4";
+  if (compress) words.erase(words.begin());
   if (words.size() < 2) {
-    ROS_FATAL("usage: recorder BAG TOPIC [TOPIC ...]");
+    ROS_FATAL("usage: recorder [--lz4] BAG TOPIC [TOPIC ...]");
     return 2;
   }
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report
@@ -99,8 +103,8 @@ int main(int argc, char** argv) {
   std::string reason;
   std::unique_ptr<Recorder> recorder;
   try {
-    recorder = std::make_unique<Recorder>(words.front(),
-                                          std::vector<std::string>(words.begin() + 1, words.end()));
+    recorder = std::make_unique<Recorder>(
+        words.front(), std::vector<std::string>(words.begin() + 1, words.end()), compress);
     ros::spin();
     recorder->close();
     return 0;

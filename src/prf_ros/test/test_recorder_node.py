@@ -54,7 +54,7 @@ class Recorder(unittest.TestCase):
             time.sleep(0.02)
 
     def test_records_every_message_of_a_burst(self):
-        recorder = self.start(self.bag, "/numbers")
+        recorder = self.start("--lz4", self.bag, "/numbers")
         self.wait_until(lambda: self.publisher.get_num_connections() == 1, "no subscriber")
         filling = "".join(random.Random(1).choices(string.printable, k=SIZE))
         for number in range(COUNT):
