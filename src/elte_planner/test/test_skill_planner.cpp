@@ -96,6 +96,33 @@ PlanRequest approach_request(const Eigen::MatrixXd& zeta, std::mt19937& random) 
   return request;
 }
 
+// What every planner must make of an approach whose target has moved: the demonstrated line before
+// the target, where the target will be.
+TEST_P(SkillPlannerTest, FollowsTheTargetAlongTheApproach) {
+  const PlanResult still =
+      planner_->plan({demonstration_, 2, demonstration_.row(49).transpose(), 0.0});
+  request_.radius = 0.001;
+  for (Eigen::Index k = 30; k < 49; ++k) {
+    const Eigen::Vector3d moved(0.05, -0.002 * static_cast<double>(k), 0.02);
+    request_.approach.push_back({k, demonstration_.row(k).transpose() + moved, 0.001});
+  }
+  request_.goal = demonstration_.row(49).transpose() + Eigen::Vector3d(0.05, -0.098, 0.02);
+  const PlanResult plan = planner_->plan(request_);
+  for (const NodeBall& ball : request_.approach) {
+    // As near as it keeps the demonstration without any change.
+    const double own = (still.positions.row(ball.node) - demonstration_.row(ball.node)).lpNorm<1>();
+    const double miss = (plan.positions.row(ball.node).transpose() - ball.centre).lpNorm<1>();
+    EXPECT_LE(miss, (planner_->name() == "elte" ? 0.0 : own) + 0.002) << ball.node;
+  }
+  // Made again after some of it is executed, the plan goes on as before, but for the velocity that a
+  // movement primitive takes from the difference of two nodes.
+  PlanRequest again = request_;
+  again.previous = plan.positions;
+  again.frozen = 20;
+  const double change = (planner_->plan(again).positions - plan.positions).cwiseAbs().maxCoeff();
+  EXPECT_LE(change, planner_->name() == "dmp" ? 0.005 : 0.002);
+}
+
 TEST(ElteSkillPlanner, PlansTheSameWhateverItPlannedBefore) {
   std::mt19937 random(5);
   const Eigen::MatrixXd zeta = random_demonstration(50, 3, random);

@@ -7,9 +7,10 @@
 //   f(s) = s sum_i psi_i(s) w_i / sum_i psi_i(s),   psi_i(s) = exp(-h_i (s - c_i)^2)
 //
 // over the unit interval. The demonstration's nodes count as equally spaced in it; their times are
-// not used. The weights are
-// fitted to the demonstration by locally weighted regression. A plan goes on from the last frozen
-// node with its velocity and the changed goal; the goal is approached, not met.
+// not used. The weights are fitted to the demonstration by locally weighted regression. A plan goes
+// on from the last frozen node with its velocity and the changed goal; the goal is approached, not
+// met. x is the position in a frame that moves with the centres of the approach's balls; without an
+// approach it rests.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,7 +4,8 @@
 //
 //   minimise |y - zeta|^2 + w_E |E y|^2 + w_R |R y|^2
 //
-// over the nodes that are not frozen, the last one within the l1 ball around the goal.
+// over the nodes that are not frozen, the last one within the l1 ball around the goal. On the
+// approach, zeta is placed where the balls have their centres; it gets there along a ramp.
 #pragma once
 
 #include <Eigen/Core>

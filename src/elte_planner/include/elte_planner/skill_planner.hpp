@@ -31,8 +31,10 @@ struct PlanRequest {
   Eigen::MatrixXd previous;  // nodes x dimensions; its first `frozen` rows are kept as they are
   Eigen::Index frozen = 2;   // 2 .. nodes
   Eigen::VectorXd goal;
-  double radius = 0.0;                  // of the l1 ball around the goal, >= 0
-  std::vector<NodeBall> approach = {};  // of free nodes before the last; only elte and lte use them
+  double radius = 0.0;  // of the l1 ball around the goal, >= 0
+  // Of free nodes before the last. elte and lte keep them; elastic_map and dmp plan in a frame that
+  // moves with their centres.
+  std::vector<NodeBall> approach = {};
 };
 
 struct PlanResult {

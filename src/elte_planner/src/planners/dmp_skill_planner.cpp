@@ -5,6 +5,8 @@
 #include <cmath>
 #include <prf_core/require.hpp>
 
+#include "frame_displacement.hpp"
+
 namespace elte_planner {
 
 void DmpParams::validate() const {
@@ -72,13 +74,17 @@ PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
   constexpr int kSubsteps = 20;
   const double node_time = 1.0 / static_cast<double>(n - 1);
   const double dt = node_time / kSubsteps;
-  const Eigen::RowVectorXd goal = request.goal.transpose();
+  const Eigen::MatrixXd frame = frame_displacement(request, demonstration_);
+  const Eigen::RowVectorXd goal = request.goal.transpose() - frame.row(n - 1);
   const Eigen::RowVectorXd start = request.previous.row(0);
 
   PlanResult result;
   result.positions = request.previous;
-  Eigen::RowVectorXd x = request.previous.row(request.frozen - 1);
-  Eigen::RowVectorXd v = (x - request.previous.row(request.frozen - 2)) / node_time;
+  const auto in_frame = [&](Eigen::Index k) -> Eigen::RowVectorXd {
+    return request.previous.row(k) - frame.row(k);
+  };
+  Eigen::RowVectorXd x = in_frame(request.frozen - 1);
+  Eigen::RowVectorXd v = (x - in_frame(request.frozen - 2)) / node_time;
   double time = node_time * static_cast<double>(request.frozen - 1);
   for (Eigen::Index k = request.frozen; k < n; ++k) {
     for (int i = 0; i < kSubsteps; ++i) {
@@ -91,9 +97,9 @@ PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
       x += dt * v;
       time += dt;
     }
-    result.positions.row(k) = x;
+    result.positions.row(k) = x + frame.row(k);
   }
-  const double miss = (request.goal - x.transpose()).lpNorm<1>();
+  const double miss = (goal - x).lpNorm<1>();
   result.slack = std::max(miss - request.radius, 0.0);
   result.status = result.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved;
   if (result.slack > 0.0) result.message = "the primitive has not reached the goal at its end";

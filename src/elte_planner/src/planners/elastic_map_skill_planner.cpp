@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "frame_displacement.hpp"
+
 namespace elte_planner {
 namespace {
 
@@ -50,8 +52,9 @@ PlanResult ElasticMapSkillPlanner::plan(const PlanRequest& request) {
   const Eigen::Index free = n - request.frozen;
   const Sparse full = hessian(n, weights_);
   const Sparse free_block = full.bottomRightCorner(free, free);
+  const Eigen::MatrixXd places = demonstration_ + frame_displacement(request, demonstration_);
   const Eigen::MatrixXd right =
-      demonstration_.bottomRows(free) -
+      places.bottomRows(free) -
       full.bottomLeftCorner(free, request.frozen) * request.previous.topRows(request.frozen);
   const Eigen::SimplicialLDLT<Sparse> factor(free_block);
 
