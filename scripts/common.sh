@@ -43,10 +43,11 @@ as_root() {
 
 listed() { sed 's/#.*//' "$1" | tr -s ' \n' '\n' | sed '/^$/d'; }
 
+# install_debian_packages LIST: what a list of scripts/ names
 install_debian_packages() {
   command -v apt-get >/dev/null || die "this needs Debian 12 (apt-get was not found)"
   local missing=() package
-  for package in $(listed "$repo/scripts/packages.txt"); do
+  for package in $(listed "$repo/scripts/$1"); do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return
@@ -66,7 +67,7 @@ install_python_packages() {
 }
 
 set_up() {
-  install_debian_packages
+  install_debian_packages packages.txt
   install_python_packages
 }
 

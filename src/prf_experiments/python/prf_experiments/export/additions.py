@@ -6,12 +6,15 @@ A companion carries the header of its message and is written at the same time.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from prf_experiments.export.types import Standard
+if TYPE_CHECKING:
+    from prf_experiments.export.types import Standard
+else:
+    Standard = Any  # framework_view uses what stands here without rosbags
 
 NUMBER, TEXT = "std_msgs/msg/Float64", "std_msgs/msg/String"
 PATH, POSE, POSES = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseArray"
