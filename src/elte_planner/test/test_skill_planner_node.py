@@ -236,7 +236,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("w_elastic = -", w_elastic=-0.001)
         self.check("w_bending = nan", w_bending=float("nan"))
         self.check("planner = bezier", planner="bezier")
-        self.check("framework = yes", framework="yes")
+        self.check('framework = "yes"', framework="yes")
         self.check("horizon_max = -1", horizon_max=-1)
         self.check("max_step = -1", max_step=-1)
         self.check("confidence = 1", confidence=1.0)

@@ -195,34 +195,34 @@ class SilenceTest(unittest.TestCase):
                     peer.publishers["joint_command"] = MutedFrom(
                         peer.publishers["joint_command"], mute_from + 0.08)
                 code, output = peer.run(response_timeout=2.0)
-            self.assertEqual(code, 3, output)
+            self.assertEqual(code, 5, output)
             self.assertIn(f"{name} is silent", output)
 
     # Fault 11, 34: silent from the first tick on -> insisted on after the first ticks
     def test_names_the_topic_that_was_never_heard(self):
         with FakeFramework(mute="joint_command") as peer:
             code, output = peer.run(response_timeout=3.0)
-        self.assertEqual(code, 3, output)
+        self.assertEqual(code, 5, output)
         self.assertIn("joint_command is silent", output)
         self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
 
     def test_names_the_trajectory_that_the_decision_waits_for(self):
         with FakeFramework(forecast=True, mute="execution/progress", mute_from=0.11) as peer:
             code, output = peer.run(response_timeout=2.0)
-        self.assertEqual(code, 3, output)
+        self.assertEqual(code, 5, output)
         self.assertIn("skill/trajectory is silent", output)
         self.assertEqual(peer.stamps_ms("joint_states")[-1], 110)
 
     def test_names_what_is_missing_at_the_start(self):
         with FakeFramework(absent=["skill/trajectory"]) as peer:
             code, output = Simulator(response_timeout=2.0).wait()
-        self.assertEqual(code, 3, output)
+        self.assertEqual(code, 5, output)
         self.assertIn("without publisher: /skill/trajectory;", output)
         self.assertEqual(peer.messages["joint_states"], [])
 
     def test_names_everything_when_it_is_alone(self):
         code, output = Simulator(response_timeout=1.0).wait()
-        self.assertEqual(code, 3, output)
+        self.assertEqual(code, 5, output)
         for name in ("/joint_states", "/camera/image_raw", "/joint_command", "/execution/progress"):
             self.assertIn(name, output)
 

@@ -75,7 +75,7 @@ def trajectory(progress):
     message.forecast_stamp = progress.forecast_stamp
     message.demonstration_switch = progress.demonstration_switch
     if progress.demonstration == MISSING:
-        message.status, message.message = SkillTrajectory.REFUSED, f"{MISSING}: cannot be read"
+        message.status, message.message = SkillTrajectory.REFUSED, f"{MISSING}: there is no such file"
         return message
     message.poses = [pose(0.3 + 0.03 * i) for i in range(NODES)]
     message.time_from_start = [rospy.Duration(0.1 * i) for i in range(NODES)]

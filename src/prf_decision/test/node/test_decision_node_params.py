@@ -78,7 +78,7 @@ class DecisionNodeParams(unittest.TestCase):
             ("goal_tolerance", [0.05, 4.0], "goal_tolerance[1] = 4, must be within [0.001, 3.14"),
             ("following_limits", [0.1, 0.1, 5.0], "following_limits[1] = 0.1, must be greater"),
             ("hand_frame", "", "hand_frame = , must be"),
-            ("framework", "yes", "framework = yes, must be true or false"),
+            ("framework", "yes", 'framework = "yes", must be true or false'),
             ("autostart", 1, "autostart = 1, must be true or false"),
             ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
             ("speed", 1.0, "speed = 1, must be absent"),
