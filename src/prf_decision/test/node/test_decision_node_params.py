@@ -59,7 +59,7 @@ class DecisionNodeParams(unittest.TestCase):
             ("pipeline_delay", nan, "pipeline_delay = nan, must be finite"),
             ("camera_period", 0.004, "camera_period = 0.004, must be within [0.006, 1] s"),
             ("max_wait", -1, "max_wait = -1, must be within [0.05, 10] s"),
-            ("max_wait", "soon", "max_wait = soon, must be a number"),
+            ("max_wait", "soon", 'max_wait = "soon", must be a number'),
             ("lead", -0.01, "lead = -0.01, must be within [0, 1] s"),
             ("hold_time", -1.0, "hold_time = -1, must be within [0, 3600] s"),
             ("tracking_tolerance", 0, "tracking_tolerance = 0, must be within [0.0001, 0.5] m"),
