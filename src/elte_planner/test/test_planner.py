@@ -51,7 +51,7 @@ class Fit(unittest.TestCase):
                 ("must have as many", [wave(), wave(dimensions=3)], {}), ("nodes is 2", wave(), {"nodes": 2}),
                 ("at most 3 dimensions", wave(dimensions=7), {"thin": 0.1}),
                 ("belong to one demonstration", [wave(), wave()], {"times": np.arange(60)}),
-                ("none.csv: cannot be read", "none.csv", {}), ("time", wave(), {"times": np.zeros(60)}),
+                ("none.csv: there is no such file", "none.csv", {}), ("time", wave(), {"times": np.zeros(60)}),
                 ("alignment is 'x'", [wave(), wave()], {"alignment": "x"})):
             with self.assertRaisesRegex(ValueError, refusal):
                 Planner().fit(given, **options)

@@ -80,11 +80,12 @@ class Planner:
 
     kind: 'elte' (keeps the shape, stays short and smooth), 'lte' (shape only), 'elastic_map' (keeps the positions) or
     'dmp' (approaches the goal, does not meet it). w_elastic, w_bending: weights of squared first and second
-    differences, without unit; lte and dmp have none. max_step: greatest l1 distance of consecutive nodes, in the unit
-    of the demonstration; elte and lte keep it.
+    differences, without unit; lte and dmp have none. A disturbance decays over sqrt(0.25 / w_elastic) nodes, 158 by
+    default (the paper's 0.001: 16); a plan of many more nodes is pulled straight, see shape_loss. max_step: greatest
+    l1 distance of consecutive nodes, in the unit of the demonstration; elte and lte keep it.
     """
 
-    def __init__(self, kind: str = "elte", *, w_elastic: float = 0.001, w_bending: float = 0.001,
+    def __init__(self, kind: str = "elte", *, w_elastic: float = 1e-5, w_bending: float = 0.001,
                  max_step: float = float("inf")) -> None:
         if kind not in planner_names():
             raise ValueError(f"planner = {kind}, must be one of: {', '.join(planner_names())}")

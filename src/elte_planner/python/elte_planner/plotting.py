@@ -44,7 +44,8 @@ def draw(plan: Plan, axes: Any = None, *, demonstrations: Sequence[ArrayLike] = 
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_axisbelow(True)
     axes.grid(color="0.9")
-    axes.legend(fontsize="small")
+    once = dict(zip(*reversed(axes.get_legend_handles_labels())))  # of several plans in one picture
+    axes.legend(once.values(), once.keys(), fontsize="small")
     return axes
 
 
