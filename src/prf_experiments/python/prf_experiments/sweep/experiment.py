@@ -91,8 +91,9 @@ def parser() -> args.Parser:
 
 
 def default_jobs() -> int:
-    """One for each processor: a trial uses about one on average, since its nodes take turns."""
-    return len(os.sched_getaffinity(0))
+    """One more than there are processors: while it runs a trial uses about one, since its nodes take
+    turns, and next to nothing while it starts and ends."""
+    return len(os.sched_getaffinity(0)) + 1
 
 
 def refuse_unknown(words: Sequence[str], experiment: str | None) -> None:
