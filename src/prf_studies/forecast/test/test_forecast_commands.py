@@ -220,6 +220,7 @@ class Commands(unittest.TestCase):
                 figures, _ = self.figures("forecast_error", *common, path)
                 errors.append(figures["conditions"][name + ".csv"]["hold"]["rms_error_m"])
         self.assertEqual(errors[0], errors[1])
+        self.assert_refused("forecast_error", [*common, self.motion, "--warm-up", 8], "motion.csv: no forecast counts")
 
     def test_predictor_benchmark_compares_with_filterpy(self):
         os.makedirs(self.path("stub/filterpy"), exist_ok=True)

@@ -151,6 +151,9 @@ def evaluate_files(options, predictors):
     for condition, files in conditions.items():
         for name in predictors:
             figures[condition, name] = [one for _ in files for one in next(results)]
+            if not any(sum(one["count"]) for one in figures[condition, name]):
+                raise EvaluationError(f"{condition}: no forecast counts, the motion must be longer than --warm-up "
+                                      f"{options.warm_up:g} s and the horizons, and its rows dense")
     return figures
 
 

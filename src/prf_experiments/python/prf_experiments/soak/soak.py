@@ -119,6 +119,8 @@ def evaluate(data: recording.Recording, watch: Watch, executions: list, seconds:
     failures = list(found.violations)
     if lasted < seconds - 1.0:
         failures.append(f"the run ended after {lasted:.1f} of {seconds:.0f} s")
+    if not executions:
+        failures.append("no execution came to an end: there is nothing to say about them")
     failures += [f"memory of {row['node']} grows by {row['growth_mb_per_h']:.1f} MB/h"
                  for row in memory if measures.grows(row)]
     failures += [f"no recovery within {measures.RECOVERY:g} s of {row['fault']}"

@@ -66,6 +66,7 @@ class Measures(unittest.TestCase):
         summary = soak.evaluate(data, watch, [], 60.0, ["decision_node"])
         told = soak.text(summary)
         self.assertIn("NOT RIGHT: process left over: decision_node", told)
+        self.assertIn("NOT RIGHT: no execution came to an end", told)
         self.assertIn("NOT RIGHT: the run ended after 40.0 of 60 s", told)
 
 
