@@ -231,9 +231,9 @@ def main(words: list[str]) -> int:
         for name, loops in [("idle", 0), ("busy", options.loops)][:2 if options.loops else 1]:
             measured = {hop: summary(seconds)
                         for hop, seconds in _measure_apart(options, loops).items()}
-            unseen = [hop for hop, row in measured.items() if not row["count"]]
-            if unseen:
-                raise session.SessionError(f"{name}: nothing to measure, no message came over " + "; ".join(unseen))
+            unmeasured = [hop for hop, row in measured.items() if not row["count"]]
+            if unmeasured:
+                raise session.SessionError(f"{name}: nothing to measure, no message came over " + "; ".join(unmeasured))
             print(f"\n{name}: {loops} busy loops, {os.cpu_count()} cores, load "
                   f"{os.getloadavg()[0]:.1f} at the end\n{table(measured)}")
             figures[name] = {key(hop): row for hop, row in measured.items()}
