@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the decision knows of the target: the newest forecast, when the target was last measured,
-// and the HMM's belief, filtered over the motions of all forecasts.
-//
-// A filter that expects smooth motion averages a shaking target away. So each observation is the
-// filter's velocity v with the spread s that makes it as fast as what was measured:
-//   s^2 = max(0, r^2 - |v|^2, |z|^2 - tr R - |v|^2)
-// with r the measured speed, z the velocity between the latest two images, R its covariance.
+// and the HMM's belief, filtered over the motions of all forecasts (motion_observer.hpp).
 #pragma once
 
 #include <memory>
@@ -13,12 +8,10 @@
 #include <vector>
 
 #include "prf_decision/hmm.hpp"
+#include "prf_decision/motion_observer.hpp"
 #include "prf_decision/tick_gate.hpp"
 
 namespace prf_decision {
-
-// What the HMM observes of a forecast; none: the target was not measured.
-[[nodiscard]] std::optional<ObservedMotion> observation_of(const TargetForecast& forecast);
 
 class BeliefTracker {
  public:
@@ -43,6 +36,7 @@ class BeliefTracker {
 
  private:
   HmmFilter hmm_;
+  MotionObserver observer_;
   HmmBelief belief_;
   double speed_ = 0;
   std::size_t resets_ = 0;

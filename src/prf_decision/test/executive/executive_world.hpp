@@ -39,7 +39,8 @@ class World {
           forecast_of(now_ - from_seconds(0.06), position, velocity, status));
       if (status != TargetStatus::kTracking)
         forecast->since_measurement = forecast->stamp - last_measured_;
-      forecast->measured_motion.speed = measured_speed;
+      forecast->measured_motion.velocity = velocity + Eigen::Vector3d(0, 0, measured_off);
+      forecast->measured_motion.velocity_covariance = 1e-6 * Eigen::Matrix3d::Identity();
       if (status == TargetStatus::kNoTarget) forecast->predictions.clear();
       if (status == TargetStatus::kTracking) last_measured_ = forecast->stamp;
       tick.forecasts.push_back({forecast->stamp, forecast});
@@ -88,7 +89,7 @@ class World {
   bool control_silent = false;
   Eigen::Vector3d position = kTarget;
   Eigen::Vector3d velocity = kStill;
-  double measured_speed = 0;
+  double measured_off = 0;  // velocity between two images, from the filter's, m/s
   TargetStatus status = TargetStatus::kTracking;
   bool forecast_silent = false;
   bool planner_silent = false;

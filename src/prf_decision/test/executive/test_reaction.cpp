@@ -77,7 +77,7 @@ const std::map<std::string, std::pair<Danger, std::vector<double>>> kDangers{
       },
       {0, 0.2, 0.4, 0.7, 1.0, 1.4, 1.6, 2.5, 9, 1e6}}},
     {"spread",
-     {[](World& w, double size, int) { w.measured_speed = size; },
+     {[](World& w, double size, int) { w.measured_off = size; },
       {0, 0.2, 0.4, 0.7, 1.0, 1.6, 2.5, 9, 1e6}}},
     {"age",
      {[](World& w, double size, int tick) {
