@@ -101,6 +101,58 @@ TEST(ClockMonitor, TakesAJumpOnlyFromStampsInOrderAndInARow) {
   EXPECT_EQ(orders({9000, 20000, 20010, 9010, 20020, 20030, 9020}), ".aa.aa.");
 }
 
+// Stamps of a stream with a step of 10 ms, and then `more`.
+std::vector<int> steady(int count, const std::vector<int>& more) {
+  std::vector<int> stamps;
+  for (int i = 0; i < count; ++i) stamps.push_back(10 * i);
+  stamps.insert(stamps.end(), more.begin(), more.end());
+  return stamps;
+}
+
+std::string after_steady(const std::vector<int>& more) {
+  return orders(steady(20, more)).substr(20);
+}
+
+// Fault 40: one stamp 0.05 to 2 s early -> it alone is dropped, the stream's own cost nothing
+TEST(ClockMonitor, DropsOneEarlyStampAndKeepsTheStreamsOwn) {
+  for (const int early : {51, 300, 1000, 2000}) {
+    EXPECT_EQ(after_steady({190 + early, 200, 210, 220}), "a...") << early;
+    EXPECT_EQ(after_steady({190 + early, 190 + early, 190 + early, 200}), "aaa.") << "the same";
+    EXPECT_EQ(after_steady({190 + early, 200, 200 + early, 210}), "a.a.") << "an early copy";
+    EXPECT_EQ(after_steady({190 + early, 189 + early, 200}), early > 51 ? "aa." : "a.o")
+        << "falling";
+  }
+  EXPECT_EQ(after_steady({240, 250}), "..") << "five steps";
+}
+
+TEST(ClockMonitor, GoesOnAfterAGapAtTheCostOfOneMessage) {
+  for (const int gap : {60, 500, 1990}) {
+    EXPECT_EQ(after_steady({190 + gap, 200 + gap, 210 + gap}), "a..") << gap;
+  }
+  EXPECT_EQ(after_steady({2191, 2201, 2211, 2221}), "aa>.") << "a leap";
+}
+
+TEST(ClockMonitor, TakesAStreamWithManyGapsAsItIs) {
+  EXPECT_EQ(after_steady({490, 500, 800, 810, 1110, 1120}), "a.....");
+  EXPECT_EQ(orders(steady(8, {300, 310})).substr(8), "..") << "too few steps known";
+  std::vector<int> slow;
+  for (int i = 0; i < 20; ++i) slow.push_back(300 * i);
+  slow.push_back(300 * 19 + 1500);
+  EXPECT_EQ(orders(slow), std::string(21, '.'));
+  std::vector<int> fast;
+  for (int i = 0; i < 20; ++i) fast.push_back(i);
+  fast.insert(fast.end(), {39, 40});
+  EXPECT_EQ(orders(fast).substr(20), "..") << "20 ms are never early";
+  fast[20] = 40;
+  fast[21] = 41;
+  EXPECT_EQ(orders(fast).substr(20), "a.");
+}
+
+TEST(ClockMonitor, TakesAStampBeforeAndOneBeyondForNoRow) {
+  ClockMonitor clock({milliseconds(100), seconds(2), 3});
+  EXPECT_EQ(orders(clock, steady(20, {80, 260, 270})).substr(20), "oa.");
+}
+
 TEST(ClockMonitor, CanTakeEveryLaterStampForTheNextOne) {
   ClockMonitor clock({seconds(1), Duration::max(), 3});
   EXPECT_EQ(clock.observe(Stamp{0}), StampOrder::kNewer);
@@ -152,6 +204,17 @@ TEST_P(Disturbed, LosesNoMessageInOrderToSingleWrongOnes) {
       const StampOrder order = clock.observe(milliseconds(wrong(now)));
       ASSERT_FALSE(is_accepted(order)) << i;
     }
+  }
+}
+
+// Fault 40: single stamps up to 2 s early -> dropped, all others count
+TEST_P(Disturbed, LosesNoMessageInOrderToSingleEarlyOnes) {
+  ClockMonitor clock(kBounds);
+  for (int i = 0; i < 1000; ++i) {
+    const int now = 10'000'000 + 10 * i;
+    ASSERT_EQ(clock.observe(milliseconds(now)), StampOrder::kNewer) << i;
+    if (i < 10 || uniform(0, 3) > 0) continue;
+    ASSERT_EQ(clock.observe(milliseconds(now + uniform(51, 2000))), StampOrder::kFarAhead) << i;
   }
 }
 
