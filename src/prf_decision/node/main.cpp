@@ -124,7 +124,7 @@ class DecisionNode {
     if (push == PushResult::kOld || push == PushResult::kFarAhead) {
       inputs_.drop(topic, push == PushResult::kOld
                               ? "old: not newer than the one before, or older than the run"
-                              : "more than a second ahead of the ticks");
+                              : "far ahead of the ticks, or of its own stream");
       ROS_WARN_THROTTLE(kWarnPeriod, "%s of %.3f s dropped, the newest tick is of %.3f s",
                         topic.c_str(), to_seconds(stamp),
                         to_seconds(gate_.newest_tick().value_or(Stamp{0})));

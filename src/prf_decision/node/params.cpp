@@ -4,7 +4,7 @@
 #include <cmath>
 #include <prf_core/require.hpp>
 
-#include "prf_decision/hmm_file.hpp"
+#include "prf_decision/hmm/hmm_file.hpp"
 
 namespace prf_decision {
 namespace {

@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "prf_decision/hmm.hpp"
-#include "prf_decision/hmm_file.hpp"
-#include "prf_decision/hmm_learning.hpp"
-#include "prf_decision/hmm_sequence.hpp"
+#include "prf_decision/hmm/hmm_file.hpp"
+#include "prf_decision/hmm/hmm_learning.hpp"
+#include "prf_decision/hmm/hmm_sequence.hpp"
 
 namespace py = pybind11;
 

@@ -32,9 +32,9 @@ bool waits_at_start(const AssessmentInput& input) {
   return input.at_start && published(input.state) == ExecutionState::kWaiting;
 }
 
-Event graded(Event event, bool lasts, const AssessmentInput& input) {
+Event graded(Event event, bool lasts, bool may_be_lost, const AssessmentInput& input) {
   if (event == Event::kHazard && lasts) event = Event::kOverdue;
-  if (event == Event::kLost && !input.at_start) event = Event::kOverdue;
+  if (event == Event::kLost && !may_be_lost) event = Event::kOverdue;
   const bool stays = waits_at_start(input) || (is_resting(input.state) && !input.at_target);
   return event == Event::kOverdue && stays ? Event::kHazard : event;
 }
@@ -49,10 +49,12 @@ Assessment Assessor::assess(const GuardParams& params, Duration dwell_time,
   hazard_.update(tick, violation.has_value(), dwell_time);
   if (waits_at_start(input)) hazard_.reset();
   unsteady_.update(tick, input.at_target && intent != Intent::kForward, dwell_time);
+  if (is_rewinding(input.state)) rewound_ = tick;
+  const bool may_be_lost = input.at_start && !(rewound_ && tick - *rewound_ <= params.stop_after);
   const bool may_leave = input.at_target || !is_resting(input.state);
   if (violation) {
     const bool lasts = hazard_.time(tick) > params.reverse_after;
-    return {graded(violation->event, lasts, input), std::move(violation->reason), true,
+    return {graded(violation->event, lasts, may_be_lost, input), std::move(violation->reason), true,
             intent == Intent::kReverse && may_leave ? describe(belief) : ""};
   }
   if (is_rewinding(input.state))

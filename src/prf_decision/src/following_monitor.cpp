@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/following_monitor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
 
@@ -55,6 +56,10 @@ void FollowingMonitor::update(const FollowingParams& params, const FollowingInpu
   on_goal_ = trouble.empty() && error_ && error_->is_within(params.goal);
   off_.update(input.stamp, !trouble.empty(), params.limits[0]);
   if (!trouble.empty() || !off_.is_on()) trouble_ = trouble;
+  const Duration passed = input.stamp - updated_.value_or(input.stamp);
+  updated_ = input.stamp;
+  const Duration changed = off_in_all_ + (is_off() ? passed : -passed / kForgiven);
+  off_in_all_ = input.is_moved ? std::max(changed, Duration{0}) : Duration{0};
 }
 
 }  // namespace prf_decision

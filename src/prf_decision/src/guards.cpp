@@ -53,11 +53,17 @@ std::optional<Violation> check_ticks(const GuardParams& params, const GuardInput
 std::optional<Violation> check_following(const GuardParams& params, const GuardInput& input) {
   const auto& [pause_after, reverse_after, stop_after] = params.following.limits;
   const Duration lasting = input.following->lasting(input.tick);
+  const Duration in_all = input.following->off_in_all();
   const auto off = [&](Event event) {
     return Violation{event,
                      sentence(input.following->trouble(), ", for ", to_seconds(lasting), " s")};
   };
   if (lasting > stop_after) return off(Event::kGiveUp);
+  if (lasting > pause_after && in_all > stop_after) {
+    Violation often = off(Event::kGiveUp);
+    often.reason += sentence(", off again and again for ", to_seconds(in_all), " s");
+    return often;
+  }
   if (lasting > reverse_after) return off(Event::kOverdue);
   if (lasting > pause_after) return off(Event::kHazard);
   return std::nullopt;

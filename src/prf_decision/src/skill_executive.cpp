@@ -72,8 +72,8 @@ ExecutiveResult SkillExecutive::update(const Tick& tick) {
   // The planner's result is for the last tick: before this one's forecasts.
   if (tick.plan_result) receive_plan(*tick.plan_result);
   belief_.update(tick.forecasts);
-  following_.update(params_.guards.following,
-                    {tick.stamp, last_setpoint_, tick.hand, tick.control, tick.control_silent});
+  following_.update(params_.guards.following, {tick.stamp, last_setpoint_, tick.hand, tick.control,
+                                               tick.control_silent, moves_arm()});
   end_unanswered_request(tick.stamp);
   if (goals_.next && !is_requesting()) begin_execution(tick.stamp);
   switch_demonstration();
@@ -84,6 +84,12 @@ ExecutiveResult SkillExecutive::update(const Tick& tick) {
   last_tick_ = tick.stamp;
   last_setpoint_ = setpoint ? std::optional(setpoint->pose) : std::nullopt;
   return {progress(tick), setpoint};
+}
+
+bool SkillExecutive::moves_arm() const {
+  const ExecutionState state = fsm_.published_state();
+  return state != ExecutionState::kWaiting && state != ExecutionState::kStopped &&
+         state != ExecutionState::kDone;
 }
 
 void SkillExecutive::receive_plan(const PlanResult& result) {
@@ -200,9 +206,10 @@ const TargetForecast* SkillExecutive::followed_forecast(const Tick& tick) const 
 }
 
 std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation) {
-  const ReferenceResult result = reference_.step(
-      {tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
-       followed_forecast(tick), violation, !following_.is_off(), following_.is_on_goal()});
+  const ReferenceResult result =
+      reference_.step({tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(),
+                       fsm_.state() == State::kRewinding, tick.hand, followed_forecast(tick),
+                       violation, !following_.is_off(), following_.is_on_goal()});
   if (result.at_start && !plans_.demonstration().is_returning()) {
     fsm_.fire(tick.stamp, Event::kAtStart, "", params_.dwell_time);
   }

@@ -10,10 +10,8 @@ namespace {
 
 using prf_core::StampOrder;
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 
 constexpr Duration kPeriodMargin = milliseconds(5);  // jitter of the camera's stamps
-constexpr Duration kClockJump = seconds(1);          // larger steps are another run or garbage
 
 const GateParams& validated(const GateParams& params) {
   params.validate();
@@ -59,9 +57,11 @@ PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
 
 PushResult TickGate::push_forecast(ForecastArrival arrival) {
   const Stamp stamp = arrival.stamp;
-  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  if (is_ahead_by(kClockJump, stamp)) return PushResult::kFarAhead;
   if (precedes_run(stamp)) return PushResult::kOld;
-  if (!prf_core::is_accepted(forecasts_.push(stamp, std::move(arrival)))) return PushResult::kOld;
+  const StampOrder order = forecasts_.push(stamp, std::move(arrival));
+  if (order == StampOrder::kFarAhead) return PushResult::kFarAhead;
+  if (!prf_core::is_accepted(order)) return PushResult::kOld;
   forecast_silence_.heard();
   return PushResult::kAccepted;
 }
@@ -70,7 +70,7 @@ PushResult TickGate::push_plan_result(PlanResult result) {
   const Stamp stamp = result.stamp;
   // A result follows its progress, and that its tick: without one it belongs to another run.
   if (!first_tick_ || stamp < *first_tick_) return PushResult::kOld;
-  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  if (is_ahead_by(kMostLead, stamp)) return PushResult::kFarAhead;
   if (!prf_core::is_accepted(plan_results_.push(stamp, std::move(result)))) return PushResult::kOld;
   plan_silence_.heard();
   return PushResult::kAccepted;
@@ -80,7 +80,7 @@ PushResult TickGate::push_control_report(ControlReport report) {
   const Stamp stamp = report.stamp;
   // A report follows its tick, as a plan does.
   if (!first_tick_ || stamp < *first_tick_) return PushResult::kOld;
-  if (is_far_ahead(stamp)) return PushResult::kFarAhead;
+  if (is_ahead_by(kMostLead, stamp)) return PushResult::kFarAhead;
   if (!prf_core::is_accepted(control_reports_.push(stamp, std::move(report)))) {
     return PushResult::kOld;
   }
@@ -88,9 +88,9 @@ PushResult TickGate::push_control_report(ControlReport report) {
   return PushResult::kAccepted;
 }
 
-bool TickGate::is_far_ahead(Stamp stamp) const {
+bool TickGate::is_ahead_by(Duration lead, Stamp stamp) const {
   const auto newest = ticks_.clock().newest();
-  return newest && stamp > *newest + kClockJump;
+  return newest && stamp > *newest + lead;
 }
 
 bool TickGate::precedes_run(Stamp forecast) const {

@@ -49,6 +49,32 @@ TEST(FollowingMonitor, CountsAHandThatComesAndGoesAsOff) {
   EXPECT_EQ(monitor.trouble(), "");
 }
 
+// Fault 39: hand off its set-point again and again -> the time adds up, a quarter is forgiven
+TEST(FollowingMonitor, AddsUpForHowLongTheArmIsOffWhileItIsMoved) {
+  FollowingMonitor monitor;
+  FollowingInput input = input_at(0, 0);
+  const auto off_in_all_after = [&](int ticks, double error) {
+    for (int i = 0; i < ticks; ++i) {
+      const Stamp next = input.stamp + kTickPeriod;
+      const bool is_moved = input.is_moved;
+      input = input_at(0, error);
+      input.stamp = next;
+      input.report->stamp = next;
+      input.is_moved = is_moved;
+      monitor.update(kParams, input);
+    }
+    return to_seconds(monitor.off_in_all());
+  };
+  EXPECT_EQ(off_in_all_after(100, 0), 0);
+  EXPECT_NEAR(off_in_all_after(40, 0.2), 0.40, 1e-9);
+  // Ten ticks later it has followed again; from there on a quarter of the time is forgiven.
+  EXPECT_NEAR(off_in_all_after(50, 0), 0.40 + 0.10 - 0.10, 1e-9);
+  EXPECT_NEAR(off_in_all_after(30, 0.2), 0.70, 1e-9);
+  EXPECT_EQ(off_in_all_after(1000, 0), 0);
+  input.is_moved = false;
+  EXPECT_EQ(off_in_all_after(1000, 0.2), 0) << "an arm that is not moved need not follow";
+}
+
 TEST(FollowingMonitor, IsOffWhileTheRotationIsAndWhenAnErrorIsNotANumber) {
   FollowingInput turned = input_at(1, 0);
   turned.hand->orientation = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX());

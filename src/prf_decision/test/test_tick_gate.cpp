@@ -194,5 +194,33 @@ TEST(TickGate, GivesUpOnASilentControllerAndWaitsAgainOnceItIsHeard) {
   EXPECT_EQ(tick_alone(37).find("silent"), std::string::npos);
 }
 
+// Fault 40: a tick, forecast, result or report stamped 0.3 s early -> it alone is dropped
+TEST(TickGate, DropsSingleEarlyStampsOfEveryStream) {
+  TickGate gate(kGate);
+  const Stamp early = milliseconds(300);
+  std::string processed;
+  for (int i = 0; i < 200; ++i) {
+    const Stamp tick = i * kTickPeriod;
+    EXPECT_EQ(gate.push_tick(tick), PushResult::kAccepted);
+    if (i % 3 == 0) {
+      EXPECT_EQ(gate.push_forecast(forecast(tick)), PushResult::kAccepted);
+    }
+    if (i == 100) {
+      EXPECT_EQ(gate.push_tick(tick + early), PushResult::kFarAhead);
+      EXPECT_EQ(gate.push_forecast(forecast(tick + early)), PushResult::kFarAhead);
+      EXPECT_EQ(gate.push_plan_result(plan_result(tick + early)), PushResult::kFarAhead);
+      EXPECT_EQ(gate.push_control_report(report(tick + early)), PushResult::kFarAhead);
+    }
+    while (const auto next = gate.next()) {
+      processed += describe(*next);
+      EXPECT_EQ(gate.push_control_report(report(next->stamp)), PushResult::kAccepted);
+      if (next->forecasts.empty()) continue;
+      EXPECT_EQ(gate.push_plan_result(plan_result(next->stamp)), PushResult::kAccepted);
+    }
+  }
+  EXPECT_EQ(lines(processed), 200);
+  EXPECT_EQ(processed.find("silent"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace prf_decision

@@ -8,7 +8,7 @@
 #include "elte_planner/demonstration_limits.hpp"
 #include "fuzz_target.hpp"
 #include "platform_sim/platform_profile.hpp"
-#include "prf_decision/hmm_file.hpp"
+#include "prf_decision/hmm/hmm_file.hpp"
 
 FUZZ_TARGET(demonstration_csv) {
   fuzz::accepts([&] {

@@ -4,11 +4,14 @@
 //   a hazard of any guard that lasts for coast_limits[1]      overdue: the arm goes back
 //   unsteady for coast_limits[2] with the hand at the target  overdue
 //   lost with the hand away from the start of the skill       overdue: the way out comes first
+//   lost on the way to the start before an execution, or      overdue: the target may be in view
+//   less than coast_limits[2] after it                        again from there
 //   overdue while the execution waits at the start            hazard: there is no way to go back
 //   overdue or unstable once the execution has ended          only with the hand at the target
 // What lasts may pause for the dwell time.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "prf_decision/belief_tracker.hpp"
@@ -42,6 +45,7 @@ class Assessor {
  private:
   Lasting hazard_;
   Lasting unsteady_;
+  std::optional<Stamp> rewound_;  // the last tick of going to the start before an execution
 };
 
 }  // namespace prf_decision

@@ -8,7 +8,9 @@
 //
 // The arm is off, too, when the hand is unknown, and when the controller fails or is silent. It has
 // followed again once it was not off for following_limits[0]: a hand that is thrown to and fro
-// across the bound does not follow.
+// across the bound does not follow. While the arm is moved, the time for which it is off adds up,
+// and what it follows makes up for a quarter (kForgiven): so an arm that is off for more than a
+// fifth of the time is given up, too, however often it pauses and goes back in between.
 #pragma once
 
 #include <array>
@@ -61,10 +63,13 @@ struct FollowingInput {
   std::optional<Pose> hand;             // as measured at this tick
   std::optional<ControlReport> report;  // none yet
   bool controller_silent = false;
+  bool is_moved = true;  // an execution moves the arm
 };
 
 class FollowingMonitor {
  public:
+  static constexpr int kForgiven = 4;
+
   void update(const FollowingParams& params, const FollowingInput& input);
 
   // None: the hand is unknown, or there was no set-point.
@@ -73,6 +78,8 @@ class FollowingMonitor {
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
   // For how long it has been off; 0: it follows.
   [[nodiscard]] Duration lasting(Stamp stamp) const { return off_.time(stamp); }
+  // For how long it has been off in all since it has been moved, less what is forgiven.
+  [[nodiscard]] Duration off_in_all() const { return off_in_all_; }
   [[nodiscard]] bool is_off() const { return off_.is_on(); }
   // Whether the hand is where it shall be, as a goal demands: known, within the tolerance, and the
   // controller works.
@@ -82,6 +89,8 @@ class FollowingMonitor {
   std::optional<PoseError> error_;
   std::string trouble_;
   Lasting off_;
+  Duration off_in_all_{0};
+  std::optional<Stamp> updated_;
   bool on_goal_ = false;
 };
 

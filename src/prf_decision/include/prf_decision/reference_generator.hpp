@@ -11,6 +11,8 @@
 //                                          for `lead` after the tick; none during a violation;
 //                                          adapted once: the plan's last pose
 //   waiting, stopped             stands    none; the set-point begins where the hand is measured
+// On a straight way to the start of the skill the hand keeps its view of the target
+// (view_keeper.hpp).
 // Without a reference the set-point stands still; in waiting and stopped there is no set-point,
 // and the arm holds. While the arm does not follow, the cursor waits: forward always, back where it
 // would lead away from the measured hand.
@@ -24,6 +26,7 @@
 #include "prf_decision/following_monitor.hpp"
 #include "prf_decision/plan_receiver.hpp"
 #include "prf_decision/setpoint_limiter.hpp"
+#include "prf_decision/view_keeper.hpp"
 
 namespace prf_decision {
 
@@ -47,6 +50,7 @@ struct ReferenceInput {
   Stamp stamp{0};
   Duration since_last_tick{0};
   ExecutionState state = ExecutionState::kWaiting;
+  bool rewinding = false;            // the state is reverse, to begin at the start of the skill
   std::optional<Pose> hand;          // as measured; none: not known
   const TargetForecast* forecast{};  // null: none that the hand may follow
   bool violation = false;            // a guard reports one: the target is not tracked
@@ -96,6 +100,7 @@ class ReferenceGenerator {
  private:
   void move_cursor(const ReferenceInput& input);
   [[nodiscard]] bool leads_away(const ReferenceInput& input, double cursor) const;
+  void keep_view(const ReferenceInput& input);
   void follow_target(const ReferenceInput& input);
   [[nodiscard]] bool is_relative_to_target() const;
   [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
@@ -105,6 +110,7 @@ class ReferenceGenerator {
   std::shared_ptr<const Trajectory> plan_;
   Approach approach_;  // of the plan
   double cursor_ = 0;
+  ViewKeeper view_;
   std::optional<MovingPose> target_;  // that the approach follows
   std::optional<Pose> setpoint_;
   std::optional<Stamp> tracked_since_;

@@ -106,6 +106,7 @@ class SkillExecutive {
   [[nodiscard]] bool adapts_once() const {
     return params_.reference.adaptation == Adaptation::kOnce;
   }
+  [[nodiscard]] bool moves_arm() const;
   void receive_plan(const PlanResult& result);
   void end_unanswered_request(Stamp stamp);
   void begin_execution(Stamp stamp);

@@ -13,9 +13,12 @@
 // with D pipeline_delay, P camera_period and C control_delay. The controller reports on a tick
 // after the set-point of that tick, so C > 0. The first report is due C after the first tick.
 // Before any forecast, the first tick - P stands for the newest forecast. A forecast of an image
-// taken before the first tick is not of this run and is dropped.
+// taken before the first tick is not of this run and is dropped. What is far ahead of the ticks is
+// dropped, too: a forecast by more than a second, what follows a tick (result, report) by more than
+// 0.1 s, or else its stream's own messages would count as old until its stamp is reached.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -67,7 +70,7 @@ struct Tick {
 enum class PushResult {
   kAccepted,
   kOld,       // not newer than the one before, or older than the run: dropped
-  kFarAhead,  // more than a second ahead of the ticks: dropped
+  kFarAhead,  // of the ticks, or a single one far ahead of its own stream: dropped
   kNewRun     // several ticks in a row say that the clock went back: all earlier data is dropped
 };
 
@@ -88,18 +91,21 @@ class TickGate {
   [[nodiscard]] std::optional<Stamp> newest_tick() const { return ticks_.clock().newest(); }
 
  private:
+  static constexpr Duration kClockJump = std::chrono::seconds(1);        // another run, or garbage
+  static constexpr Duration kMostLead = std::chrono::milliseconds(100);  // of what follows a tick
+
   void begin_new_run();
   void begin_at(Stamp first_tick);
-  [[nodiscard]] bool is_far_ahead(Stamp stamp) const;
+  [[nodiscard]] bool is_ahead_by(Duration lead, Stamp stamp) const;
   [[nodiscard]] bool precedes_run(Stamp forecast) const;
   [[nodiscard]] bool forecast_may_be_due(Stamp tick) const;
   [[nodiscard]] bool plan_result_is_due() const;
   [[nodiscard]] bool control_report_is_due(Stamp tick) const;
 
   GateParams params_;
-  // The ticks alone begin a new run. What is far ahead of them is dropped, whatever its stream.
+  // The ticks alone begin a new run.
   prf_core::StampedQueue<std::optional<Pose>> ticks_;
-  prf_core::StampedQueue<ForecastArrival> forecasts_{{Duration::max(), Duration::max()}};
+  prf_core::StampedQueue<ForecastArrival> forecasts_{{Duration::max(), kClockJump}};
   prf_core::StampedQueue<PlanResult> plan_results_{{Duration::max(), Duration::max()}};
   prf_core::StampedQueue<ControlReport> control_reports_{{Duration::max(), Duration::max()}};
   prf_core::SilenceMonitor forecast_silence_;

@@ -46,6 +46,39 @@ TEST(SkillExecutive, GivesUpWhenTheHandIsHeldAwayFromTheWholeSkill) {
   EXPECT_FALSE(stopped.setpoint);
 }
 
+// Fault 39: arm thrown to and fro, never off for long -> given up all the same, not at the limit
+TEST(SkillExecutive, GivesUpAnArmThatIsOffAgainAndAgain) {
+  World world;
+  world.until(ExecutionState::kForward, 0.1);
+  world.arm_follows = false;
+  int ticks = 0;
+  ExecutiveResult result = world.tick();
+  for (; ticks < 2000 && result.progress.state != ExecutionState::kStopped; ++ticks) {
+    const bool off = ticks % 60 < 30;  // 0.3 s off, 0.3 s not
+    if (result.setpoint) world.hand = result.setpoint->pose;
+    if (off) world.hand.position.y() += 0.15;
+    result = world.tick();
+  }
+  EXPECT_EQ(result.progress.cause, Event::kGiveUp) << result.progress.reason;
+  EXPECT_NE(result.progress.reason.find("off again and again"), std::string::npos);
+  EXPECT_GT(ticks, 500);
+  EXPECT_LT(ticks, 1000);
+}
+
+// Now and then an arm may be late without harm.
+TEST(SkillExecutive, DoesNotGiveUpAnArmThatIsSeldomOff) {
+  World world;
+  world.until(ExecutionState::kForward, 0.1);
+  world.arm_follows = false;
+  ExecutiveResult result = world.tick();
+  for (int ticks = 0; ticks < 1900; ++ticks) {
+    if (result.setpoint) world.hand = result.setpoint->pose;
+    if (ticks % 200 < 10) world.hand.position.y() += 0.15;
+    result = world.tick();
+    ASSERT_NE(result.progress.state, ExecutionState::kStopped) << result.progress.reason;
+  }
+}
+
 // Fault 38: controller dead, failing, or hand unknown during execution -> given up; never done
 TEST(SkillExecutive, IsNeverDoneWithoutAHandThatIsMeasuredThere) {
   const std::vector<std::function<void(World&)>> catalogue{

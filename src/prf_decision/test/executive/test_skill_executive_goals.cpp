@@ -170,6 +170,22 @@ TEST(SkillGoal, GoesToTheStartFirstWhenTheHandIsElsewhere) {
   }
 }
 
+// Fault 47: target out of view on the way to the start -> goes on to the start, waits there for
+// coast_limits[2], and only then gives up
+TEST(SkillGoal, GoesToTheStartThoughTheTargetIsOutOfViewMeanwhile) {
+  for (const bool seen_again : {false, true}) {
+    World world;
+    world.hand = pose_at(0.5, 0.9, 0.45);  // 4.6 s at 0.2 m/s, stop_after is 2 s
+    world.until(ExecutionState::kReverse, 0.2);
+    world.status = TargetStatus::kCoasting;
+    EXPECT_EQ(world.run(4.3).progress.state, ExecutionState::kReverse);
+    EXPECT_EQ(world.run(2.0).progress.state, ExecutionState::kReverse);
+    EXPECT_LT((world.hand.position - Eigen::Vector3d(0.3, 0, 0.5)).norm(), 0.03);
+    if (seen_again) world.status = TargetStatus::kTracking;
+    world.until(seen_again ? ExecutionState::kForward : ExecutionState::kStopped, 1);
+  }
+}
+
 TEST(SkillGoal, ResumesWhereTheLastExecutionEnded) {
   World world;
   world.run(0.6);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "prf_decision/hmm_file.hpp"
+#include "prf_decision/hmm/hmm_file.hpp"
 #include "scenario.hpp"
 
 namespace prf_decision {

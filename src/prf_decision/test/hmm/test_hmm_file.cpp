@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_decision/hmm_file.hpp"
+#include "prf_decision/hmm/hmm_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_decision/hmm_learning.hpp"
+#include "prf_decision/hmm/hmm_learning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "prf_decision/hmm_sequence.hpp"
+#include "prf_decision/hmm/hmm_sequence.hpp"
 #include "scenario.hpp"
 
 namespace prf_decision {

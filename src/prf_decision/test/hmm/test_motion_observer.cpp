@@ -64,8 +64,8 @@ TEST(MotionObserver, ObservesMeasurementsThatTheFilterRefused) {
   MotionObserver observer;
   const auto refused = forecast_at(0, {0.1, 0, 0}, {0, 0.5, 0}, 1e-8, TargetStatus::kCoasting);
   EXPECT_EQ(observer.observe(refused)->velocity, Eigen::Vector3d(0, 0.5, 0));
-  const auto unseen = forecast_at(1, {0.1, 0, 0}, {0, 0, 0}, 0, TargetStatus::kCoasting);
-  EXPECT_FALSE(observer.observe(unseen));
+  const auto hidden = forecast_at(1, {0.1, 0, 0}, {0, 0, 0}, 0, TargetStatus::kCoasting);
+  EXPECT_FALSE(observer.observe(hidden));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_decision/hmm_sequence.hpp"
+#include "prf_decision/hmm/hmm_sequence.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "prf_decision/hmm_sequence.hpp"
+#include "prf_decision/hmm/hmm_sequence.hpp"
 
 namespace prf_decision {
 
