@@ -114,8 +114,8 @@ TEST_P(SkillPlannerTest, FollowsTheTargetAlongTheApproach) {
     const double miss = (plan.positions.row(ball.node).transpose() - ball.centre).lpNorm<1>();
     EXPECT_LE(miss, (planner_->name() == "elte" ? 0.0 : own) + 0.002) << ball.node;
   }
-  // Made again after some of it is executed, the plan goes on as before, but for the velocity that a
-  // movement primitive takes from the difference of two nodes.
+  // Made again after some of it is executed, the plan goes on as before, but for the velocity that
+  // a movement primitive takes from the difference of two nodes.
   PlanRequest again = request_;
   again.previous = plan.positions;
   again.frozen = 20;
