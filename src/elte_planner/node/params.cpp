@@ -34,6 +34,8 @@ SkillPlannerParams load_params(const ros::NodeHandle& private_node) {
   session.radius_min = values.number("radius_min");
   session.radius_max = values.number("radius_max");
   session.approach_length = values.number("approach_length");
+  session.obstacles = obstacles_from(values.text("obstacles"));
+  session.clearance = values.number("clearance");
   values.refuse_unknown();
   params.validate();
   return params;

@@ -247,6 +247,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("radius_min = -", radius_min=-0.01)
         self.check("radius_max = 5", radius_max=5.0)
         self.check("late_after = 0", late_after=0.0)
+        self.check("obstacles = ", obstacles="sphere 1 2")
         self.check("frame is 'world'", frame="world")
         self.check("/nonexistent.csv: there is no such file", demonstration="/nonexistent.csv")
 

@@ -31,7 +31,12 @@ class ElteSkillPlanner : public SkillPlanner {
  private:
   bool keeps_step_bound(const PlanResult& plan, Eigen::Index frozen) const;
   static bool keeps_approach(const PlanResult& plan, const PlanRequest& request);
+  PlanResult plan_without_obstacles(const PlanRequest& request);
   PlanResult plan_with_constraints(const PlanRequest& request);
+  PlanResult plan_around_obstacles(const PlanRequest& request);
+  double set_problem(const PlanRequest& request);
+  static PlanResult result_from(const EditSolution& solution, double radius,
+                                const PlanRequest& request);
 
   Eigen::MatrixXd demonstration_;
   ElteWeights weights_;

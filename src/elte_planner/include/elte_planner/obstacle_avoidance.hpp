@@ -26,6 +26,10 @@ struct AvoidanceProblem {
   EditProblem edit;
   std::vector<Obstacle> obstacles;
   double clearance = 0.0;  // in the unit of the demonstration, > 0
+  // Optional, nodes x dimensions: a plan that meets no obstacle, such as the one before. The way
+  // beside it is taken when there is one, whatever the energy of others: a plan does not change
+  // sides without need.
+  Eigen::MatrixXd start = {};
 
   void validate() const;  // throws std::invalid_argument
 };

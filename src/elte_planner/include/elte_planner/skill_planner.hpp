@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "elte_planner/elte_energy.hpp"
+#include "elte_planner/obstacle.hpp"
 
 namespace elte_planner {
 
@@ -35,6 +36,10 @@ struct PlanRequest {
   // Of free nodes before the last. elte and lte keep them; elastic_map and dmp plan in a frame that
   // moves with their centres.
   std::vector<NodeBall> approach = {};
+  // Every segment that is not frozen keeps `clearance` from these; only elte and lte can, others
+  // refuse them. No way found: failed.
+  std::vector<Obstacle> obstacles = {};
+  double clearance = 0.0;  // m, > 0 with obstacles
 };
 
 struct PlanResult {
@@ -60,7 +65,11 @@ class SkillPlanner {
 };
 
 // For implementations: throws std::invalid_argument unless the request fits the demonstration.
+// Obstacles and clearance are left to those that know them.
 void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonstration);
+
+// For implementations that keep no clearance: throws std::invalid_argument for any obstacle.
+void refuse_obstacles(const PlanRequest& request, const std::string& planner);
 
 // For implementations: the result when every node is frozen. Solved when the last node is within
 // the ball, else relaxed by what is missing.

@@ -24,6 +24,7 @@
 #include "elte_planner/confidence_radius.hpp"
 #include "elte_planner/demonstration.hpp"
 #include "elte_planner/elte_energy.hpp"
+#include "elte_planner/placed_obstacle.hpp"
 #include "elte_planner/skill_planner.hpp"
 
 namespace elte_planner {
@@ -71,6 +72,10 @@ struct SessionParams {
   double radius_min = 0.0;       // m, within [0, 1]
   double radius_max = 0.0;       // m, within [radius_min, 1]
   double approach_length = 0.0;  // m, of the skill's end where every node has a goal; 0: the last
+  // Every segment not executed keeps `clearance` from them, with the target as predicted for the
+  // end of the skill. When no way is found, the last plan is kept.
+  std::vector<PlacedObstacle> obstacles = {};
+  double clearance = 0.0;  // m, within [0.001, 1] with obstacles
   // Deadline of a solve, the same on every machine; then the last plan is kept.
   int max_iterations = SolveLimits{}.max_iterations;
 
@@ -122,6 +127,7 @@ class SkillSession {
   std::vector<NodeGoal> goals(const prf_core::TargetForecast& forecast, prf_core::Stamp end_stamp,
                               Eigen::Index frozen) const;
   SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
+  std::vector<Obstacle> obstacles(const Pose& goal) const;
   SkillResult keep(const std::string& reason, Eigen::Index frozen) const;
 
   SessionParams params_;

@@ -69,6 +69,7 @@ void DmpSkillPlanner::fit() {
 
 PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
+  refuse_obstacles(request, name());
   const Eigen::Index n = demonstration_.rows();
   if (request.frozen == n) return all_frozen(request);
   constexpr int kSubsteps = 20;

@@ -47,6 +47,7 @@ ElasticMapSkillPlanner::ElasticMapSkillPlanner(const Eigen::MatrixXd& demonstrat
 // is the projection of the best free one, and the others follow along H^-1 e_last.
 PlanResult ElasticMapSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
+  refuse_obstacles(request, name());
   const Eigen::Index n = demonstration_.rows();
   if (request.frozen == n) return all_frozen(request);
   const Eigen::Index free = n - request.frozen;

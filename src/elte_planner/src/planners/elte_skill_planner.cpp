@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "elte_planner/obstacle_avoidance.hpp"
+
 namespace elte_planner {
 namespace {
 
@@ -38,6 +40,16 @@ ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const E
 PlanResult ElteSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
   if (request.frozen == demonstration_.rows()) return all_frozen(request);
+  PlanResult result = plan_without_obstacles(request);
+  const Eigen::Index moving = demonstration_.rows() - request.frozen + 1;
+  const bool clear = request.obstacles.empty() || result.status == PlanStatus::kFailed ||
+                     polyline_clearance(result.positions.bottomRows(moving), request.obstacles) >=
+                         request.clearance;
+  if (clear) return result;
+  return plan_around_obstacles(request);
+}
+
+PlanResult ElteSkillPlanner::plan_without_obstacles(const PlanRequest& request) {
   PlanResult result;
   result.positions = request.previous;
   solver_.solve(request.frozen, request.goal, request.radius, result.positions);
@@ -62,7 +74,8 @@ bool ElteSkillPlanner::keeps_approach(const PlanResult& plan, const PlanRequest&
   });
 }
 
-PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
+// Returns the radius of the last node's ball.
+double ElteSkillPlanner::set_problem(const PlanRequest& request) {
   const Eigen::Index last = demonstration_.rows() - 1;
   problem_.fixed = request.previous.topRows(request.frozen);
   // Just within reach: exactly at its edge every step is at its bound and nothing is left to
@@ -78,6 +91,11 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
     const NodeBall& ball = request.approach[i];
     set_ball(ball.node, ball.centre, ball.radius, problem_.constraints[i + 1]);
   }
+  return radius;
+}
+
+PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
+  const double radius = set_problem(request);
   EditParams params;
   params.max_iterations = limits_.max_iterations;
   edit_solver_.solve(problem_, params, solution_);
@@ -85,8 +103,27 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
   PlanResult result;
   result.message = solution_.message;
   if (solution_.status != EditStatus::kSolved) return result;
-  result.positions = solution_.y;
-  result.kkt_residual = solution_.kkt_residual;
+  return result_from(solution_, radius, request);
+}
+
+PlanResult ElteSkillPlanner::plan_around_obstacles(const PlanRequest& request) {
+  const double radius = set_problem(request);
+  AvoidanceParams params;
+  params.max_passes = 50;
+  params.max_choices = 16;
+  const AvoidanceSolution found =
+      avoid_obstacles({problem_, request.obstacles, request.clearance, request.previous}, params);
+  PlanResult result;
+  result.message = found.message;
+  if (found.status != AvoidanceStatus::kSolved) return result;
+  return result_from(found.plan, radius, request);
+}
+
+PlanResult ElteSkillPlanner::result_from(const EditSolution& solution, double radius,
+                                         const PlanRequest& request) {
+  PlanResult result;
+  result.positions = solution.y;
+  result.kkt_residual = solution.kkt_residual;
   result.slack = radius - request.radius;
   result.status = result.slack > 0.0 ? PlanStatus::kRelaxed : PlanStatus::kSolved;
   if (result.slack > 0.0) result.message = "the goal is beyond what the bound on steps allows";

@@ -88,6 +88,11 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
   }
 }
 
+void refuse_obstacles(const PlanRequest& request, const std::string& planner) {
+  prf_core::require(request.obstacles.empty(), "obstacles", request.obstacles.size(),
+                    "0: planner " + planner + " keeps no clearance");
+}
+
 PlanResult all_frozen(const PlanRequest& request) {
   PlanResult result;
   result.positions = request.previous;

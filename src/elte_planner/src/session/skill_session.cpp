@@ -57,6 +57,10 @@ void SessionParams::validate() const {
   require_between("radius_max", radius_max, radius_min, 1.0, "m");
   require_between("approach_length", approach_length, 0.0, 10.0, "m");
   require_between("max_iterations", max_iterations, 1, 1000000);
+  if (obstacles.empty()) return;
+  require_between("clearance", clearance, 0.001, 1.0, "m");
+  prf_core::require(planner == "elte" || planner == "lte", "planner", planner,
+                    "elte or lte, which keep clear of obstacles");
 }
 
 SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
@@ -181,6 +185,8 @@ SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
       request.approach.push_back({node, goals[i].pose.position, goals[i].radius});
     }
   }
+  request.obstacles = obstacles(goals.back().pose);
+  request.clearance = params_.clearance;
   const PlanResult plan = planner_->plan(request);
   if (plan.status == PlanStatus::kFailed) return keep(plan.message, frozen);
 
@@ -195,6 +201,16 @@ SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
   result.kkt_residual = plan.kkt_residual;
   result.slack = plan.slack;
   plan_ = result;
+  return result;
+}
+
+// goal: of the last node; it stands before the target as demonstrated.
+std::vector<Obstacle> SkillSession::obstacles(const Pose& goal) const {
+  const Pose target = pose_from(goal.isometry() * goal_in_target_.isometry().inverse());
+  std::vector<Obstacle> result;
+  for (const PlacedObstacle& obstacle : params_.obstacles) {
+    result.push_back(obstacle.in_planning_frame(target));
+  }
   return result;
 }
 

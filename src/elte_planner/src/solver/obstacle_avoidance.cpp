@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <prf_core/require.hpp>
 
 namespace elte_planner {
@@ -40,7 +41,7 @@ class Avoidance {
     if (best_.status != AvoidanceStatus::kSolved) return best_;
     best_.status = AvoidanceStatus::kNotFound;
     const EditSolution unobstructed = best_.plan;
-    explore(unobstructed);
+    if (!go_on_from_start()) explore(unobstructed);
     if (best_.status == AvoidanceStatus::kNotFound) {
       best_.message = "no way found around obstacle " + std::to_string(last_hit_) + ", " +
                       std::to_string(choices_) + " choices of sides tried";
@@ -98,6 +99,35 @@ class Avoidance {
       sides.push_back(-side);
     }
     return sides;
+  }
+
+  // The sides on which the start passes; false where it meets an obstacle or leads to no plan.
+  bool go_on_from_start() {
+    if (problem_.start.rows() == 0) return false;
+    AvoidanceSolution found;
+    if (take_sides_of_start()) {
+      EditSolution plan;
+      plan.y = problem_.start;
+      choices_ = 1;
+      descend(plan, found);
+    }
+    for (Eigen::VectorXd& side : sides_) side.resize(0);
+    if (found.status != AvoidanceStatus::kSolved) return false;
+    best_ = found;
+    return true;
+  }
+
+  bool take_sides_of_start() {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (Index k = first_; k < problem_.start.rows(); ++k) {
+        const Separation present = separation_of(problem_.start, k, i);
+        if (!(present.distance > 0.0)) return false;
+        if (present.distance < nearest) sides_[i] = present.normal;
+        nearest = std::min(nearest, present.distance);
+      }
+    }
+    return true;
   }
 
   // Depth first over the sides of the obstacles that plans run into.
@@ -179,6 +209,11 @@ class Avoidance {
 void AvoidanceProblem::validate() const {
   edit.validate();
   for (const Obstacle& obstacle : obstacles) obstacle.validate(edit.zeta.cols());
+  prf_core::require(
+      start.size() == 0 || (start.rows() == edit.zeta.rows() && start.cols() == edit.zeta.cols() &&
+                            is_within_magnitude(start)),
+      "start", std::to_string(start.rows()) + " x " + std::to_string(start.cols()),
+      "empty or of the demonstration's size, finite");
   prf_core::require(clearance > 0.0 && std::isfinite(clearance), "clearance", clearance,
                     "finite and > 0");
 }
