@@ -82,11 +82,16 @@ class Plans(unittest.TestCase):
             self.assertEqual(plan.status, "solved")
             np.testing.assert_allclose(plan.positions[plan.via[0].node], [0.25, 0.3], atol=1e-12)
             self.assertLessEqual(np.abs(plan.positions[25] - [0.5, 0.0]).sum(), 0.02 + 1e-12)
+            without = planner.plan([1.0, 0.1]).positions
+            self.assertEqual(plan.via[0].node, np.argmin(np.linalg.norm(without - [0.25, 0.3], axis=1)))
             around = planner.plan([1.0, 0.1], obstacles=[obstacle], clearance=0.03, via=[[0.25, 0.3]])
             self.assertEqual(around.status, "solved", around.message)
             self.assertGreaterEqual(
                 elte_planner.polyline_clearance(around.positions[1:], [obstacle]), 0.03 - 1e-12)
             np.testing.assert_allclose(around.positions[around.via[0].node], [0.25, 0.3], atol=1e-12)
+            far = planner.plan([1.0, 0.1], obstacles=[elte_planner.disc_obstacle(np.array([9.0, 9.0]), 0.1)],
+                               clearance=0.03)
+            np.testing.assert_allclose(far.positions, without, atol=1e-9)
         blocked = planner.plan([0.75, -0.2], obstacles=[obstacle], clearance=0.03)
         self.assertFalse(blocked.found)
         self.assertTrue(blocked.message)

@@ -62,6 +62,7 @@ class Predictors(unittest.TestCase):
         for time, position in zip(TIMES, measured):
             predictor.update(time, position, SIGMA)
         periodicity = predictor.periodicity()
+        assert periodicity is not None
         self.assertGreater(periodicity.probability, 0.5)
         self.assertAlmostEqual(periodicity.frequencies[0], 2.0, delta=0.25)
         still = Predictor("hold")
