@@ -22,6 +22,8 @@ html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_show_sourcelink = False
+html_show_copyright = False
+highlight_language = "text"
 html_math_renderer = "mathml"
 
 breathe_projects = json.loads(os.environ["SITE_DOXYGEN"])

@@ -54,6 +54,7 @@ def filtered(text):
         code, mark, comment = line.partition("//")
         if mark:
             comment = re.sub(r"([\\@<>&])", r"\\\1", comment)  # what Doxygen would take for commands and tags
+            comment = re.sub(r"`([^`]+)`", r"<tt>\1</tt>", comment)
             line = f"{code}///{'<' if code.strip() else ''}{comment}"
         out.append(line)
     return "\n".join(out)

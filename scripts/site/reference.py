@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pages of reference made from interfaces.yaml, the parameter files, the messages and the commands themselves."""
+import os
 import re
 import subprocess
 import sys
@@ -13,7 +14,9 @@ COMMAND_SECONDS = 20  # a node that takes no --help does not end by itself
 
 
 def cell(text):
-    return " ".join(str(text).split()).replace("|", "\\|").replace("<", "&lt;")
+    """Text for a cell of a table: one line; what looks like a tag is none, unless it is code."""
+    parts = re.split(r"(`[^`]*`)", " ".join(str(text).split()).replace("|", "\\|"))
+    return "".join(part if part.startswith("`") else part.replace("<", "&lt;") for part in parts)
 
 
 def table(titles, rows):
@@ -51,13 +54,14 @@ def topics(interface):
                           ("Of the framework", ("output", "transform")),
                           ("Ground truth of the simulation", ("ground_truth",)),
                           ("Others", ("exempt", "description", "teaching"))):
-        rows = [(f"`{topic.name}`", _type(topic.type), ", ".join(topic.senders),
-                 ", ".join([*topic.readers, *topic.also]) or "–", cell(topic.unit), cell(topic.meaning))
+        rows = [(f"`{topic.name}`<br>{_type(topic.type)}",
+                 f"{', '.join(topic.senders)} → {', '.join([*topic.readers, *topic.also]) or '–'}",
+                 cell(topic.meaning) + (f" ({cell(topic.unit)})" if topic.unit != "–" else ""))
                 for topic in interface.topics if topic.kind in chosen]
-        lines += [f"## {title}", "", table(("topic", "type", "from", "to", "unit", "meaning"), rows)]
-    served = [(f"`{each['name']}`", _type(each["type"]), each["server"], cell(each["meaning"]))
+        lines += [f"## {title}", "", table(("topic, type", "from → to", "meaning"), rows)]
+    served = [(f"`{each['name']}`<br>{_type(each['type'])}", each["server"], cell(each["meaning"]))
               for each in [*interface.actions, *interface.services]]
-    return "\n".join([*lines, "## Actions and services", "", table(("name", "type", "server", "meaning"), served)])
+    return "\n".join([*lines, "## Actions and services", "", table(("name, type", "server", "meaning"), served)])
 
 
 def _type(name):
@@ -109,25 +113,25 @@ def parameters():
     for path in config_files():
         head, rows = _entries(path)
         lines += [f"## {path.stem}", "", f"`{path.relative_to(REPO)}`", "", cell(" ".join(head)), "",
-                  table(("parameter", "value", "unit, bounds, meaning"),
-                        [(f"`{key}`", f"`{cell(value)}`", cell(meaning)) for key, value, meaning in rows])]
+                  table(("parameter, value", "unit, bounds, meaning"),
+                        [(f"`{key}`<br>{cell(f'`{value}`')}", cell(meaning)) for key, value, meaning in rows])]
     return "\n".join(lines)
 
 
 def _fields(text):
-    """Rows (type, name, meaning) of a message; comments on lines of their own get a row, too."""
+    """Rows (name and type, meaning) of a message; comments on lines of their own get a row, too."""
     rows = []
     for line in text.splitlines():
         body, _, comment = line.partition("#")
         words = body.split(None, 1)
         if len(words) == 2:
-            rows.append([f"`{words[0]}`", f"`{words[1].strip()}`", cell(comment)])
+            rows.append([f"`{words[1].strip()}`<br>{words[0]}", cell(comment)])
         elif comment.strip() and body and rows:
-            rows[-1][2] += " " + cell(comment)
+            rows[-1][1] += " " + cell(comment)
         elif comment.strip():
-            rows.append(["", "", f"*{cell(comment)}*"])
+            rows.append(["", f"*{cell(comment)}*"])
         elif body.strip() == "---":
-            rows.append(["", "", "**– – –**"])
+            rows.append(["", "**– – –**"])
     return rows
 
 
@@ -137,20 +141,22 @@ def messages():
         rows = _fields(path.read_text(encoding="utf-8"))
         while rows and not rows[0][0]:
             head = rows.pop(0)
-            lines += ([f"## {path.stem}", ""] if f"## {path.stem}" not in lines else []) + [head[2].strip("*"), ""]
+            lines += ([f"## {path.stem}", ""] if f"## {path.stem}" not in lines else []) + [head[1].strip("*"), ""]
         lines += [] if f"## {path.stem}" in lines else [f"## {path.stem}", ""]
-        lines += [table(("type", "field", "meaning"), rows)]
+        lines += [table(("field, type", "meaning"), rows)]
     return "\n".join(lines)
 
 
 def commands(devel):
     """What each command that a document names says on --help; `devel` is the devel space of a build, or None."""
+    variables = environment(devel)
     texts = [path.read_text(encoding="utf-8") for path in documents()]
-    named = sorted({found for text in texts for found in re.findall(r"rosrun (\w+) (\w+)", text)})
+    named = sorted({found for text in texts for found in re.findall(r"rosrun (\w+) (\w+)", text)
+                    if "_test_" not in found[1]})
     lines = ["# Commands", "",
              "`./run_experiment` and `./run_tests` in the root; the others with `rosrun PACKAGE COMMAND` in a sourced "
              "workspace.", "", "## run_experiment", "",
-             _block(_help([sys.executable, "-m", "prf_experiments.sweep.experiment"], devel))]
+             _block(_help([sys.executable, "-m", "prf_experiments.sweep.experiment"], devel, variables))]
     for package in sorted({package for package, _ in named}):
         if not (REPO / "src" / package).is_dir():
             continue
@@ -158,7 +164,7 @@ def commands(devel):
         if (REPO / "src" / package / "README.md").exists():
             lines += [f"See also its [README](../src/{package}/README.md).", ""]
         for name in (name for of, name in named if of == package):
-            told = _help([str(devel / "lib" / package / name)], devel) if devel else ""
+            told = _help([str(devel / "lib" / package / name)], devel, variables) if devel else ""
             lines += [f"### {name}", "", _block(told or f"rosrun {package} {name} --help")]
     return "\n".join(lines)
 
@@ -167,15 +173,23 @@ def _block(text):
     return f"```text\n{text.strip()}\n```\n"
 
 
-def _help(words, devel):
-    sources = f"export PYTHONPATH='{REPO}/src/prf_experiments/python'; "
-    script = (f". '{devel}/setup.bash' && " if devel else sources) + 'exec "$@"'
+def environment(devel):
+    """Variables of a shell in which the workspace is sourced; without one, those that run_experiment needs."""
+    if not devel:
+        return {**os.environ, "PYTHONPATH": str(REPO / "src" / "prf_experiments" / "python")}
+    told = subprocess.run(["bash", "-c", f". '{devel}/setup.bash' && env -0"], capture_output=True, text=True,
+                          check=True).stdout
+    return dict(line.split("=", 1) for line in told.split("\0") if "=" in line)
+
+
+def _help(words, devel, variables):
     try:
-        done = subprocess.run(["bash", "-c", script, "bash", *words, "--help"], capture_output=True, text=True,
-                              timeout=COMMAND_SECONDS, check=False, stdin=subprocess.DEVNULL)
-    except subprocess.TimeoutExpired:
+        done = subprocess.run([*words, "--help"], capture_output=True, text=True, timeout=COMMAND_SECONDS, check=False,
+                              env=variables, stdin=subprocess.DEVNULL)
+    except (subprocess.TimeoutExpired, OSError):
         return ""
-    return done.stdout.replace(str(REPO), ".") if done.returncode == 0 else ""
+    text = done.stdout.replace(f"{devel}/lib/", "").replace(str(REPO), ".")
+    return text if done.returncode == 0 else ""
 
 
 def write(folder, devel):
