@@ -81,7 +81,7 @@ TEST_P(SkillPlannerTest, RefusesRequestsThatDoNotFit) {
   refused([](PlanRequest& r) { r.previous = Eigen::MatrixXd::Zero(49, 3); });
 }
 
-// Half of it executed, the end moved, a narrowing ball on each of the last nodes.
+// Half of it executed, the end moved, a narrowing ball on each of so many of the last nodes.
 PlanRequest approach_request(const Eigen::MatrixXd& zeta, std::mt19937& random) {
   PlanRequest request;
   request.previous = zeta;
@@ -89,7 +89,7 @@ PlanRequest approach_request(const Eigen::MatrixXd& zeta, std::mt19937& random) 
   const Eigen::VectorXd offset = random_vector(3, 0.1, random);
   request.goal = zeta.row(49).transpose() + offset;
   request.radius = 0.001;
-  for (Eigen::Index k = 30; k < 49; ++k) {
+  for (auto k = std::uniform_int_distribution<Eigen::Index>(26, 46)(random); k < 49; ++k) {
     request.approach.push_back(
         {k, zeta.row(k).transpose() + offset, 0.001 * static_cast<double>(50 - k)});
   }
