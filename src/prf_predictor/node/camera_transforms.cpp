@@ -64,7 +64,7 @@ void CameraTransforms::add(const tf2_msgs::TFMessage& message, const std::string
 void CameraTransforms::report(const FrameChain::Transform& transform, Effect effect,
                               const std::string& publisher) {
   if (effect == Effect::kTooMany) health_.drop("tf of more than 1000 frames");
-  if (effect == Effect::kTooMany || effect == Effect::kBadFrames) return;
+  if (!chain_.has(transform.child)) return;  // so that foreign names do not fill the memory
   std::string& before = publishers_[transform.child];
   const bool is_other = !before.empty() && before != publisher;
   if ((is_other || reason(effect) != nullptr) &&

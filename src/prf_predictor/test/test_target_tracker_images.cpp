@@ -1,16 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images that come twice, late or not at all, and parameters out of bounds.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "predictor_files.hpp"
 #include "resting_target.hpp"
 
 namespace prf_predictor {
 namespace {
+
+// Images with jitter, gaps, outliers and a target that is lost and comes back, from `begin` s to
+// `end` s. Returns the heap in use at most during the last third, MB.
+double memory_of(TargetTracker& tracker, int begin, int end) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1e-3);
+  constexpr int kRate = 30;
+  double most = 0.0;
+  for (int i = begin * kRate; i < end * kRate; ++i) {
+    const double t = static_cast<double>(i) / kRate;
+    const Eigen::Vector3d position =
+        kHome + Eigen::Vector3d(0.05 * std::sin(2.4 * t) + noise(random), noise(random), 0);
+    std::vector<TagMeasurement> measurements;
+    if (i % 900 > 60) measurements.push_back(measurement_at(position));
+    if (i % 50 < 8) measurements.push_back(measurement_at(position + Eigen::Vector3d(0, 0.5, 0)));
+    (void)tracker.forecast(tracker.process(prf_core::from_seconds(t), measurements).state,
+                           kHorizons);
+    const auto heap = mallinfo2();
+    if (i > kRate * (begin + 2 * end) / 3) {
+      most = std::max(most, 1e-6 * static_cast<double>(heap.uordblks + heap.hblkhd));
+    }
+  }
+  return most;
+}
+
+// All that is kept is filled after ten seconds.
+TEST(TargetTracker, KeepsNoMoreAfterSixMinutesThanAfterOne) {
+  TargetTracker tracker(good_params(), make_predictor("periodic", values_of("periodic")));
+  const double after_one = memory_of(tracker, 0, 60);
+  EXPECT_LT(memory_of(tracker, 60, 360), 1.15 * after_one);
+}
 
 // Fault 9, 40: an image twice -> the same forecast again, nothing changes
 TEST(TargetTracker, AnswersADuplicateStampAsBeforeAndStaysUnchanged) {

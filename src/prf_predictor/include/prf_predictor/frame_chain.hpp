@@ -66,6 +66,9 @@ class FrameChain {
 
   [[nodiscard]] LookupResult lookup(const std::string& camera_frame, prf_core::Stamp stamp) const;
 
+  // Whether there is tf of this frame.
+  [[nodiscard]] bool has(const std::string& frame) const { return frames_.count(frame) > 0; }
+
   // Whether this frame lies between the planning frame and `camera_frame`.
   [[nodiscard]] bool is_between(const std::string& frame, const std::string& camera_frame) const;
 
