@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "elte_planner/confidence_radius.hpp"
@@ -200,9 +201,21 @@ void bind_obstacles(py::module_& m) {
       "least clearance > 0, in the unit of zeta. A local minimum, the best of the sides tried.");
 }
 
+// Before 2.12 pybind11 knows the arrays of numpy 1 only, and reads others out of bounds.
+void require_known_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (std::stoi(version) < 2) return;
+  throw py::import_error(
+      "elte_planner of the ROS workspace is for numpy 1, this Python has numpy " + version +
+      "; install it here: pip install ./src/elte_planner");
+#endif
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
+  require_known_numpy();
   m.doc() = "Elastic Laplacian trajectory editing: numpy in, numpy out. Rows are nodes.";
   bind_solver(m);
   bind_endpoint_solver(m);

@@ -7,8 +7,9 @@
 """
 from pkgutil import extend_path
 
-# Beside a sourced ROS workspace, whose compiled part may be of another Python, that of this one is found.
-__path__ = extend_path(__path__, __name__)
+# A sourced ROS workspace comes first on the path, but its compiled part is for the system's Python and numpy: where the
+# package is installed, too, the installed parts are taken.
+__path__ = extend_path(__path__, __name__)[::-1]
 
 from elte_planner._core import (
     AvoidanceSolution,
