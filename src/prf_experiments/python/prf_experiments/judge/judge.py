@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from prf_experiments import geometry
-from prf_experiments.judge import target
+from prf_experiments.judge import smoothness, target
 from prf_experiments.record.recording import Contact, Recording
 from prf_msgs import enums, interfaces
 from prf_msgs.msg import ControlStatus, ExecutionProgress
@@ -262,6 +262,7 @@ def judge(recording: Recording) -> Verdict:
         "tracking_lateral_mean_mm": tracking_mean,
         "tracking_lateral_deviation_mm": tracking_deviation,
         **_following(recording),
+        **smoothness.figures(recording),
         "forecast_horizon_s": horizon,
         "forecast_error_rms_mm": forecast_error,
         "fallen_s": None if fall is None else float(recording.seconds(fall)),

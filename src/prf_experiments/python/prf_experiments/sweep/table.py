@@ -20,6 +20,8 @@ AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
 ORDER = ("framework", "motion", "gait")
 VERDICTS = ("S", "P", "F", "INVALID")
 SHADES = {"S": ("0.82", ""), "P": ("white", "////"), "F": ("0.1", ""), "INVALID": ("white", "xx")}
+SMOOTHNESS = {"jerk, rad/s³": "joint_jerk_rms_rad_s3", "path / way": "approach_path_ratio",
+              "shake, mm": "approach_shake_rms_mm"}  # figures of a verdict, by heading
 MARK = {"color": "black", "marker": "|", "markersize": 12, "linestyle": "none",
         "markeredgewidth": 1.6, "alpha": 0.8}
 
@@ -52,6 +54,7 @@ def row(chosen: dict, results: list[dict]) -> dict:
             "counts": counts, "inspected_count": inspected,
             "success": rate(counts["S"], valid), "inspected": rate(inspected, valid),
             "tracking_lateral_mm": spread("tracking_lateral_mean_mm"),
+            "smoothness": {name: spread(figure) for name, figure in SMOOTHNESS.items()},
             "largest_contact_n": max((result["figures"].get("largest_contact_n", 0.0)
                                       for result in results), default=0.0)}
 
@@ -71,6 +74,10 @@ def percent(found: dict) -> str:
             f"{100 * found['fraction_high_95']:.0f})")
 
 
+def number(value: float | None) -> str:
+    return "–" if value is None else f"{value:.1f}"
+
+
 def grouped(text: str) -> str:
     """Verdicts in groups of ten; few of them apart, as in the paper's table."""
     if len(text) <= 10:
@@ -87,13 +94,14 @@ def aligned(rows: Sequence[Sequence[str]]) -> str:
 
 def text(summary: dict) -> str:
     rows = [(*summary["axes"], "tests", "S", "P", "F", "inv", "success, % (95 %)",
-             "inspected, % (95 %)", "off axis, mm", "contact, N")]
+             "inspected, % (95 %)", "off axis, mm", "contact, N", *SMOOTHNESS)]
     for found in summary["cells"]:
         off = found["tracking_lateral_mm"]["mean"]
         rows.append((*(shown(name, found[name]) for name in summary["axes"]),
                      grouped(found["tests"]), *(str(found["counts"][name]) for name in VERDICTS),
                      percent(found["success"]), percent(found["inspected"]),
-                     "–" if off is None else f"{off:.1f}", f"{found['largest_contact_n']:.1f}"))
+                     number(off), f"{found['largest_contact_n']:.1f}",
+                     *(number(found["smoothness"][name]["mean"]) for name in SMOOTHNESS)))
     return aligned(rows)
 
 
@@ -157,6 +165,8 @@ def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
 MEANING = (
     "S success, P partial success, F failure, inv no evidence; one letter for each seed. Rates are of "
     "the valid trials, with\nWilson's 95 % interval. Off axis: mean distance of the tag's centre from "
-    "the camera's optical axis while tracking.\nContact: the largest force of arm, hand or camera.")
+    "the camera's optical axis while tracking.\nContact: the largest force of arm, hand or camera. "
+    "Jerk: rms of the commanded joints. On the last 0.2 m, seen from\nthe tag: path of the hand over "
+    "its net way, and its shake above 1.5 Hz, rms.")
 
 STUDY = Study("Trials", MEANING, AXES, {}, summarise, text, sections)
