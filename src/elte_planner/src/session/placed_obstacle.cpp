@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elte_planner/placed_obstacle.hpp"
 
-#include <prf_core/bounds.hpp>
 #include <prf_core/quoted.hpp>
 #include <prf_core/require.hpp>
 #include <sstream>
