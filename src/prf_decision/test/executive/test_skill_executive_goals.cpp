@@ -170,6 +170,22 @@ TEST(SkillGoal, GoesToTheStartFirstWhenTheHandIsElsewhere) {
   }
 }
 
+TEST(SkillGoal, KeepsTheTargetInViewOnTheWayToTheStart) {
+  World world;
+  world.hand = pose_at(0.5, 0.4, 0.45);
+  const auto seen = [&world]() -> Eigen::Vector3d {
+    return world.hand.orientation.conjugate() * (world.position - world.hand.position).normalized();
+  };
+  const Eigen::Vector3d before = seen();
+  world.until(ExecutionState::kReverse, 0.2);
+  while (world.tick().progress.state == ExecutionState::kReverse) {
+    ASSERT_LT((seen() - before).norm(), 0.05);
+  }
+  EXPECT_LT((world.hand.position - Eigen::Vector3d(0.3, 0, 0.5)).norm(), 0.03);
+  world.until(ExecutionState::kDone, 6);
+  EXPECT_LT(world.hand.orientation.angularDistance(Eigen::Quaterniond::Identity()), 0.05);
+}
+
 // Fault 47: target out of view on the way to the start -> goes on to the start, waits there for
 // coast_limits[2], and only then gives up
 TEST(SkillGoal, GoesToTheStartThoughTheTargetIsOutOfViewMeanwhile) {
