@@ -34,5 +34,16 @@ TEST(Approach, FollowsThePlanWhileTheTargetMovesAsForecastAndTheTargetWhereItDoe
       << "a node that a new plan leaves where it is keeps its anchor";
 }
 
+// Nodes are 30 mm apart: 150 mm before the goal the skill is half of the plan and half of the
+// target.
+TEST(Approach, BlendsOverItsOwnLengthBeforeIt) {
+  Approach approach;
+  approach.update(straight_skill(), 0, Stamp{0}, forecast_of(Stamp{0}, kTarget, kStill));
+  EXPECT_EQ(approach.weight(3.3, 0.1), 0);
+  EXPECT_NEAR(approach.weight(5, 0.1), 0.5, 1e-9);
+  EXPECT_EQ(approach.weight(6.7, 0.1), 1);
+  EXPECT_EQ(approach.weight(10, 0), 0);
+}
+
 }  // namespace
 }  // namespace prf_decision

@@ -14,7 +14,7 @@ namespace {
 TEST(SkillExecutive, PausesGoesBackAndGivesUpWhenTheHandIsBlocked) {
   World world;
   world.until(ExecutionState::kForward, 0.1);
-  world.run(0.3);
+  world.run(0.6);  // 0.18 m from the start
   world.arm_follows = false;
   const ExecutiveResult paused = world.until(ExecutionState::kPause, 0.8);
   EXPECT_EQ(paused.progress.reason.rfind("hand 0.1", 0), 0u) << paused.progress.reason;
