@@ -3,11 +3,12 @@
 // target away, so its velocity v alone does not tell how fast the target is. The forecast brings
 // the velocity z between the latest two images, too, with the covariance R of its noise:
 //   hidden_k^2 = kChord^2 (|z_k - v_k|^2 - kNoise tr R_k)   what the filter does not show at image
-//   k spread^2   = max(0, hidden_k^2 of the last kHeld, |z|^2 - tr R - |v|^2)
+//   k spread^2   = max(0, second largest hidden_k^2 of the last kHeld, |z|^2 - tr R - |v|^2)
 // Between two images a shaking target covers less than at its peak velocity: of a sine that is
-// sin(a) / a, a = pi f T, down to 1 / kChord at half the image rate. The largest hidden motion is
+// sin(a) / a, a = pi f T, down to 1 / kChord at half the image rate. Hidden motion is
 // held, because such a target is slow for an image or two at each turn, and the HMM needs some
-// images to be sure. The last term makes the observation at least as fast as what was measured.
+// images to be sure; the second largest, because a filter that learns a change may be off in one
+// image. The last term makes the observation at least as fast as what was measured.
 // Where the filter follows, little is hidden, and a regular motion may be fast.
 #pragma once
 

@@ -32,7 +32,13 @@ std::optional<ObservedMotion> MotionObserver::observe(const TargetForecast& fore
     if (hidden > 0) hidden_.push_back({forecast.stamp, hidden});
     square = bounded(measured.velocity.squaredNorm() - noise - observation.velocity.squaredNorm());
   }
-  for (const Hidden& hidden : hidden_) square = std::max(square, hidden.square);
+  double largest = 0;
+  double second = 0;
+  for (const Hidden& hidden : hidden_) {
+    second = std::max(second, std::min(largest, hidden.square));
+    largest = std::max(largest, hidden.square);
+  }
+  square = std::max(square, second);
   observation.spread = std::sqrt(square);
   return observation;
 }
