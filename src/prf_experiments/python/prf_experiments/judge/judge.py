@@ -226,11 +226,8 @@ def judge(recording: Recording) -> Verdict:
         when = recording.seconds(recording.progress.stamps[stopped[0]])
         failures.append(f"the arm stopped at {when:.2f} s: "
                         + (recording.progress.reasons[stopped[0]] or "no reason given"))
-    if fall is not None:
-        failures.append(f"the robot fell at {recording.seconds(fall):.2f} s")
-    if force > EMERGENCY_STOP:
-        failures.append(_contact_sentence(recording, touching, EMERGENCY_STOP))
-    elif force > CONTACT_ISSUE:
+    failures += harm(recording)
+    if CONTACT_ISSUE < force <= EMERGENCY_STOP:
         issues.append(_contact_sentence(recording, touching, CONTACT_ISSUE))
     if reached is None:
         failures.append(_not_reached_sentence(lateral, along))
@@ -271,6 +268,18 @@ def judge(recording: Recording) -> Verdict:
         "final_state": STATES[recording.progress.states[-1]],
     }
     return Verdict(verdict, inspected is not None, "; ".join(reasons), figures)
+
+
+def harm(recording: Recording) -> list[str]:
+    """What fails a trial whatever else happens: a fall, a contact above EMERGENCY_STOP."""
+    found = []
+    fall, _, _ = _fall(recording)
+    if fall is not None:
+        found.append(f"the robot fell at {recording.seconds(fall):.2f} s")
+    touching = arm_contacts(recording.contacts)
+    if any(contact.force > EMERGENCY_STOP for contact in touching):
+        found.append(_contact_sentence(recording, touching, EMERGENCY_STOP))
+    return found
 
 
 def _contact_sentence(recording, contacts, threshold):

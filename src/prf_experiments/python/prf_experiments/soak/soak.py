@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from prf_experiments import files
 from prf_experiments.faults import catalogue, wiring
-from prf_experiments.judge import invariants
+from prf_experiments.judge import invariants, judge
 from prf_experiments.record import recording, topics
 from prf_experiments.report import figures, page
 from prf_experiments.report.page import Section
@@ -116,7 +116,7 @@ def evaluate(data: recording.Recording, watch: Watch, executions: list, seconds:
     drift = measures.drift(data)
     lasted = float(data.seconds(data.ticks[-1]))
     known = [value for value in drift if value is not None]
-    failures = list(found.violations)
+    failures = list(found.violations) + judge.harm(data)
     if lasted < seconds - 1.0:
         failures.append(f"the run ended after {lasted:.1f} of {seconds:.0f} s")
     if not executions:
@@ -207,7 +207,7 @@ def run(options: argparse.Namespace) -> int:
     if options.results_page:
         files.write(options.results_page, f"# Soak\n\n{MEANING}\n\n```\n{command}\n```\n\n"
                     f"```text\n{text(summary)}```\n")
-    if not options.keep_bag:
+    if not (options.keep_bag or summary["failures"]):  # what went wrong is read in the bag
         os.remove(os.path.join(folder, "soak.bag"))
     print(text(summary) + "\n" + os.path.join(folder, "index.html"))
     return EXIT_VIOLATION if summary["failures"] else EXIT_OK

@@ -65,7 +65,7 @@ def parser() -> args.Parser:
     soak = commands.add_parser("soak", prog="run_experiment soak", help=SOAK, description=SOAK)
     soak.add_argument("--hours", type=hours, default=1.0, metavar="H", help="simulated [1]")
     soak.add_argument("--seed", type=positive, default=1, metavar="N", help="[1]")
-    soak.add_argument("--keep-bag", action="store_true", help="it is large")
+    soak.add_argument("--keep-bag", action="store_true", help="it is large; kept anyway when something is not right")
     soak.add_argument("--json", metavar="FILE", help="writes the numbers there too")
     soak.add_argument("--results-page", metavar="FILE.md", help="writes the table there")
     for name, meaning in STUDIES.items():

@@ -8,7 +8,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
 from prf_experiments.judge import judge
-from prf_experiments.record.recording import FaultEvent
+from prf_experiments.record.recording import Contact, FaultEvent
 from prf_experiments.soak import measures, schedule, soak
 
 
@@ -62,11 +62,13 @@ class Measures(unittest.TestCase):
 
     def test_what_is_not_right_is_told(self):
         data = synthetic.make_recording(40.0)
+        data.contacts = [Contact(int(data.ticks[300]), ("box", "j2s7s300_link_hand"), 60.0)]
         watch = soak.Watch("/nowhere", None, None)
         summary = soak.evaluate(data, watch, [], 60.0, ["decision_node"])
         told = soak.text(summary)
         self.assertIn("NOT RIGHT: process left over: decision_node", told)
         self.assertIn("NOT RIGHT: no execution came to an end", told)
+        self.assertIn("NOT RIGHT: contact above 50 N at 3.00 s (box with", told)
         self.assertIn("NOT RIGHT: the run ended after 40.0 of 60 s", told)
 
 
