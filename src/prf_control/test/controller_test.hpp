@@ -37,13 +37,20 @@ inline Setpoint beside_home(double offset) {
   return pose_setpoint(pose);
 }
 
-// The result of one tick and its set-point.
-inline ControlResult ask(ArmController& controller, const JointSample& joints,
-                         const Setpoint& setpoint) {
+// The results that a tick and its set-point bring.
+inline std::vector<ControlResult> answers(ArmController& controller, const JointSample& joints,
+                                          const Setpoint& setpoint) {
   auto results = controller.add_joints(joints);
   for (const ControlResult& more : controller.add_setpoint(joints.stamp, setpoint)) {
     results.push_back(more);
   }
+  return results;
+}
+
+// The result of one tick and its set-point.
+inline ControlResult ask(ArmController& controller, const JointSample& joints,
+                         const Setpoint& setpoint) {
+  const auto results = answers(controller, joints, setpoint);
   EXPECT_EQ(results.size(), 1u);
   return results.empty() ? ControlResult() : results.front();
 }
