@@ -71,7 +71,9 @@ void SkillPlannerNode::on_progress(const prf_msgs::ExecutionProgress& message) {
 void SkillPlannerNode::take(const prf_msgs::TargetForecast& message) {
   require_frame(message.header.frame_id, params_.files.frame);
   const auto [forecast, refusal] = forecast_from(message);
-  if (!refusal.empty()) ROS_WARN_THROTTLE(1.0, "forecast taken as lost: %s", refusal.c_str());
+  if (!refusal.empty() && told_.is_due("lost forecast")) {
+    ROS_WARN("forecast taken as lost: %s", refusal.c_str());
+  }
   refused_ += refusal.empty() ? 0 : 1;
   require_in_order(queue_.add(forecast));
 }
@@ -116,7 +118,7 @@ prf_msgs::SkillTrajectory SkillPlannerNode::plan(const JoinedRequest& request) {
   message_ = result.message;
   if (status_ == SkillStatus::kKept) {
     ++kept_;
-    ROS_WARN_THROTTLE(1.0, "plan kept: %s", message_.c_str());
+    if (told_.is_due("plan kept")) ROS_WARN("plan kept: %s", message_.c_str());
   }
   return trajectory_for(progress, skill_, result);
 }
@@ -128,8 +130,9 @@ void SkillPlannerNode::note_solve_time(std::chrono::duration<double> time) {
   solve_times_.push_back(1e6 * time.count());
   if (!is_late()) return;
   ++late_;
-  ROS_WARN_THROTTLE(1.0, "solve took %.6f s, above late_after = %g s; %zu of %zu were late",
-                    time.count(), params_.late_after, late_, requests_ + 1);
+  if (!told_.is_due("late")) return;
+  ROS_WARN("solve took %.6f s, above late_after = %g s; %zu of %zu were late", time.count(),
+           params_.late_after, late_, requests_ + 1);
 }
 
 void SkillPlannerNode::diagnose(Status& status) {

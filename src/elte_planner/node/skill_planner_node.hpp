@@ -11,6 +11,7 @@
 #include <boost/circular_buffer.hpp>
 #include <chrono>
 #include <prf_ros/input_monitor.hpp>
+#include <prf_ros/wall_throttle.hpp>
 #include <string>
 
 #include "elte_planner/current_skill.hpp"
@@ -42,6 +43,7 @@ class SkillPlannerNode {
   CurrentSkill skill_;
   RequestQueue queue_;
 
+  prf_ros::WallThrottles told_;
   std::size_t requests_ = 0, kept_ = 0, late_ = 0, refused_ = 0;
   std::size_t refusals_reported_ = 0;  // of forecasts, by the last diagnostics
   SkillStatus status_ = SkillStatus::kNoPlan;

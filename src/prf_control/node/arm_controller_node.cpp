@@ -9,7 +9,6 @@ namespace {
 
 constexpr const char* kJointStates = "joint_states";
 constexpr const char* kSetpoint = "execution/setpoint";
-constexpr double kWarnPeriod = 1.0;      // [s]
 constexpr std::uint64_t kArmless = 100;  // messages: other parts of the robot may publish, too
 constexpr std::uint32_t kQueue = 1000;   // messages, 10 s of ticks
 
@@ -81,11 +80,15 @@ void ArmControllerNode::on_joints(const sensor_msgs::JointState& message) {
 void ArmControllerNode::ignore(const sensor_msgs::JointState& message, const std::string& refusal) {
   if (!refusal.empty()) {
     inputs_.drop(kJointStates, "stamp or joints cannot be used");
-    ROS_WARN_THROTTLE(kWarnPeriod, "joint_states: %s: dropped", refusal.c_str());
+    if (told_.is_due("unusable joint_states")) {
+      ROS_WARN("joint_states: %s: dropped", refusal.c_str());
+    }
   } else if (++armless_in_a_row_ >= kArmless) {
     inputs_.drop(kJointStates, "no joint of the arm in it");
-    ROS_WARN_THROTTLE(kWarnPeriod, "joint_states: expected the joints %s, received %s",
-                      listed(joint_names_).c_str(), listed(message.name).c_str());
+    if (told_.is_due("other joints")) {
+      ROS_WARN("joint_states: expected the joints %s, received %s", listed(joint_names_).c_str(),
+               listed(message.name).c_str());
+    }
   }
 }
 
@@ -124,12 +127,16 @@ void ArmControllerNode::publish(const std::vector<ControlResult>& results,
 void ArmControllerNode::log(const ControlResult& result) {
   if (result.reason.empty()) return;
   const bool is_new = result.code != last_.code || result.restarted;
-  if (result.code == ControlCode::kFailing) {
-    ROS_ERROR_THROTTLE(kWarnPeriod, "%s", result.reason.c_str());
-  } else if (result.restarted && result.code == ControlCode::kHolding) {
+  if (result.restarted && result.code == ControlCode::kHolding) {
     ROS_WARN("%s", result.reason.c_str());
-  } else if (is_new || result.code > ControlCode::kLimited) {
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s", result.reason.c_str());
+    return;
+  }
+  if (!is_new && result.code <= ControlCode::kLimited) return;
+  if (!told_.is_due("code " + std::to_string(static_cast<int>(result.code)))) return;
+  if (result.code == ControlCode::kFailing) {
+    ROS_ERROR("%s", result.reason.c_str());
+  } else {
+    ROS_WARN("%s", result.reason.c_str());
   }
 }
 

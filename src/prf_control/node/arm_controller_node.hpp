@@ -9,6 +9,7 @@
 #include <chrono>
 #include <prf_ros/input_monitor.hpp>
 #include <prf_ros/reconfigurable.hpp>
+#include <prf_ros/wall_throttle.hpp>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ class ArmControllerNode {
   diagnostic_updater::Updater diagnostics_;
   prf_ros::InputMonitor inputs_;
   ControlResult last_;
+  prf_ros::WallThrottles told_;
   std::uint64_t armless_in_a_row_ = 0;  // messages
   double longest_tick_ = 0.0;           // [s]
 };

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <prf_core/quoted.hpp>
+#include <prf_core/readable_file.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -40,20 +40,8 @@ char separator_of(std::string_view header) {
 }  // namespace
 
 std::ifstream open_table(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw std::invalid_argument(path + ": there is no such file");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw std::invalid_argument(path + ": cannot be read, must be a file");
-  }
-  if (std::filesystem::file_size(path, error) > kMaxTableBytes || error) {
-    throw std::invalid_argument(path + ": is too large, must be at most 200 MB");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument(path + ": cannot be read");
-  return file;
+  require_readable_file(path);
+  return std::ifstream(path, std::ios::binary);
 }
 
 TableReader::TableReader(std::istream& in, std::string name, OnComment on_comment)

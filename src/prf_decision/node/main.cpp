@@ -9,6 +9,7 @@
 #include <prf_ros/conversions.hpp>
 #include <prf_ros/input_monitor.hpp>
 #include <prf_ros/reconfigurable.hpp>
+#include <prf_ros/wall_throttle.hpp>
 #include <sstream>
 
 #include "conversions.hpp"
@@ -19,7 +20,6 @@ namespace prf_decision {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
-constexpr double kWarnPeriod = 1.0;   // s
 constexpr double kTickRate = 100.0;   // Hz
 constexpr double kTickSilence = 2.0;  // s of wall time, after which a client is told
 
@@ -116,8 +116,8 @@ class DecisionNode {
 
   void refuse(const std::string& topic, const std::string& reason) {
     inputs_.drop(topic, "refused");
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s refused: %s", topic.c_str(),
-                      prf_core::quoted(reason).c_str());
+    if (!told_.is_due(topic + " refused")) return;
+    ROS_WARN("%s refused: %s", topic.c_str(), prf_core::quoted(reason).c_str());
   }
 
   void account(const std::string& topic, Stamp stamp, PushResult push) {
@@ -125,9 +125,10 @@ class DecisionNode {
       inputs_.drop(topic, push == PushResult::kOld
                               ? "old: not newer than the one before, or older than the run"
                               : "far ahead of the ticks, or of its own stream");
-      ROS_WARN_THROTTLE(kWarnPeriod, "%s of %.3f s dropped, the newest tick is of %.3f s",
-                        topic.c_str(), to_seconds(stamp),
-                        to_seconds(gate_.newest_tick().value_or(Stamp{0})));
+      if (told_.is_due(topic + " dropped")) {
+        ROS_WARN("%s of %.3f s dropped, the newest tick is of %.3f s", topic.c_str(),
+                 to_seconds(stamp), to_seconds(gate_.newest_tick().value_or(Stamp{0})));
+      }
     }
     if (push != PushResult::kNewRun) return;
     ROS_WARN("clock of %s went back: new run", topic.c_str());
@@ -159,7 +160,9 @@ class DecisionNode {
   void report_silent(const std::string& topic) {
     count("ticks without " + topic);
     silent_ = topic;
-    ROS_WARN_THROTTLE(kWarnPeriod, "%s is silent, see max_wait", topic.c_str());
+    if (told_.is_due(topic + " silent")) {
+      ROS_WARN("%s is silent, see max_wait", topic.c_str());
+    }
   }
 
   // Without ticks nothing else tells the client of the action what is missing.
@@ -201,6 +204,7 @@ class DecisionNode {
   Progress last_;
   std::map<std::string, std::size_t> counters_;
   std::string silent_;  // a topic that was silent since the last diagnostics; or none
+  prf_ros::WallThrottles told_;
   ros::WallTime last_processed_ = ros::WallTime::now();
   ros::Publisher progresses_;
   ros::Publisher setpoints_;

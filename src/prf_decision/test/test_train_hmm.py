@@ -158,7 +158,7 @@ class TrainHmm(unittest.TestCase):
                 ("train_hmm", [self.bags[0], "--restarts", "0"], "restarts = 0"),
                 ("simulate", ["--out", "x.bag", "--seed", "1", "--duration", "-1"], "--duration"),
                 ("simulate", ["--out", self.path("x.bag"), "--seed", "1", "--duration", "1",
-                              "--hmm", self.path("no.yaml")], "cannot be read")):
+                              "--hmm", self.path("no.yaml")], "no.yaml: there is no such file")):
             done = run(name, *arguments)
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))
             self.assertIn(culprit, done.stderr.splitlines()[-1])

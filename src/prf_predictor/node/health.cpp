@@ -17,12 +17,12 @@ Health::Health() {
 
 void Health::warn(const std::string& what, const std::string& detail) {
   count(what);
-  if (told_[what].is_due()) ROS_WARN("%s: %s", what.c_str(), detail.c_str());
+  if (told_.is_due(what)) ROS_WARN("%s: %s", what.c_str(), detail.c_str());
 }
 
 void Health::drop(const std::string& reason, const std::string& detail) {
   count("dropped: " + reason);
-  if (!told_[reason].is_due()) return;
+  if (!told_.is_due(reason)) return;
   ROS_WARN("measurement dropped, %s%s%s", reason.c_str(), detail.empty() ? "" : ": ",
            detail.c_str());
 }

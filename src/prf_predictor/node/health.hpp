@@ -36,7 +36,7 @@ class Health {
   void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::map<std::string, std::size_t> counts_;
-  std::map<std::string, prf_ros::WallThrottle> told_;
+  prf_ros::WallThrottles told_;
   const prf_ros::InputMonitor* inputs_ = nullptr;
   std::size_t waiting_ = 0;
   TargetStatus status_ = TargetStatus::kNoTarget;

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <prf_core/readable_file.hpp>
 #include <stdexcept>
 
 #include "prf_predictor/predictors.hpp"
@@ -10,6 +11,7 @@
 namespace prf_studies {
 
 PredictorFile read_predictor_file(const std::string& path) {
+  prf_core::require_readable_file(path);
   try {
     const YAML::Node root = YAML::LoadFile(path);
     PredictorFile file;
@@ -31,6 +33,7 @@ PredictorFile read_predictor_file(const std::string& path) {
 }
 
 prf_predictor::TrackerParams read_tracker_params(const std::string& path) {
+  prf_core::require_readable_file(path);
   try {
     const YAML::Node root = YAML::LoadFile(path);
     prf_predictor::TrackerParams params;

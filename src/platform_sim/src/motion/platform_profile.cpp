@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/readable_file.hpp>
 #include <prf_core/require.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
-
-#include "readable_file.hpp"
 
 namespace platform_sim {
 namespace {
@@ -138,7 +137,7 @@ AxisProfile read_axis(const YAML::Node& node, const std::string& name) {
 }
 
 PlatformProfile read_yaml(const std::string& path) {
-  require_readable_file(path);
+  prf_core::require_readable_file(path);
   const YAML::Node file = YAML::LoadFile(path);
   std::set<std::string> known(kAxisNames.begin(), kAxisNames.end());
   known.insert("base");

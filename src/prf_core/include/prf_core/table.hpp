@@ -20,11 +20,7 @@
 
 namespace prf_core {
 
-// Longer files are refused unread.
-inline constexpr std::size_t kMaxTableBytes = 200'000'000;
-
-// Opens a file that ends: no folder, device or pipe. Throws std::invalid_argument with the path,
-// and says so where there is no such file.
+// Throws std::invalid_argument as require_readable_file() does.
 [[nodiscard]] std::ifstream open_table(const std::string& path);
 
 class TableReader {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <iomanip>
+#include <prf_core/readable_file.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -87,10 +88,9 @@ const Eigen::IOFormat kList(17, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "
 }  // namespace
 
 HmmParams load_hmm(const std::string& path) {
+  prf_core::require_readable_file(path);
   try {
     return parse(YAML::LoadFile(path));
-  } catch (const YAML::BadFile&) {
-    refuse("HMM file '" + path + "' cannot be read");
   } catch (const YAML::Exception& error) {
     refuse("HMM file '" + path + "': " + error.what());
   } catch (const std::invalid_argument& error) {

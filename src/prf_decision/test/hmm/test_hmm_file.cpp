@@ -80,7 +80,7 @@ TEST_F(HmmFile, ThatCannotBeReadIsNamed) {
     (void)load_hmm("no/such/file.yaml");
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "HMM file 'no/such/file.yaml' cannot be read");
+    EXPECT_STREQ(error.what(), "no/such/file.yaml: there is no such file");
   }
 }
 

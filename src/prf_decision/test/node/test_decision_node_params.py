@@ -80,7 +80,7 @@ class DecisionNodeParams(unittest.TestCase):
             ("hand_frame", "", "hand_frame = , must be"),
             ("framework", "yes", 'framework = "yes", must be true or false'),
             ("autostart", 1, "autostart = 1, must be true or false"),
-            ("hmm_file", "no/such/file.yaml", "HMM file 'no/such/file.yaml' cannot be read"),
+            ("hmm_file", "no/such/file.yaml", "no/such/file.yaml: there is no such file"),
             ("speed", 1.0, "speed = 1, must be absent"),
         ]
         self.assert_refused([(dict(self.valid, **{key: value}), culprit)

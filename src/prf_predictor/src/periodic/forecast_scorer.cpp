@@ -59,7 +59,7 @@ void ForecastScorer::observe(double time, const Eigen::Vector3d& position,
         sums.log_error += weight * (squared + variance.sum()).log();
         const Eigen::Array3d own = (prediction.position - truth).array().square();
         if (kHorizons[k] < kShort && passed <= kShortGap) {
-          const ObservedError observed{kHorizons[k], own, prediction.calibrated + variance.array()};
+          const ObservedError observed{own, prediction.calibrated + variance.array()};
           if (!(observed.ratio() <= worst_.ratio())) worst_ = observed;
         }
         sums.inflation += weight * (own - variance.array()) / prediction.variance.array();

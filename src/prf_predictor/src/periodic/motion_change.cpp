@@ -7,8 +7,7 @@
 namespace prf_predictor {
 namespace {
 
-constexpr double kShortest = 0.005;    // s; the noise of nearer measurements hides the velocity
-constexpr double kShortestAge = 0.02;  // s, the same for an error
+constexpr double kShortest = 0.005;  // s; the noise of nearer measurements hides the velocity
 
 }  // namespace
 
@@ -19,7 +18,6 @@ void MotionChange::begin(const Eigen::Vector3d& position) {
 
 void MotionChange::observe(const Eigen::Vector3d& position, const Eigen::Vector3d& noise,
                            double elapsed) {
-  changed2_ *= std::exp(-2 * elapsed / kRecovery);
   if (elapsed > kShortest) {
     const double share = 1 - std::exp(-elapsed / kMemory);
     const Eigen::Array3d velocity = (position - position_) / elapsed;
@@ -31,16 +29,12 @@ void MotionChange::observe(const Eigen::Vector3d& position, const Eigen::Vector3
   position_ = position;
 }
 
-bool MotionChange::judge(const ObservedError& error) {
-  if (error.ratio() <= kSurprise) return false;
-  changed2_ = changed2_.max(error.squared / std::pow(std::max(error.age, kShortestAge), 2));
-  return true;
-}
+bool MotionChange::is_shown_by(const ObservedError& error) { return error.ratio() > kSurprise; }
 
 Eigen::Array3d MotionChange::least_variance(double age) const {
   const Eigen::Array3d before =
       (age * age * speed2_.max(0.0)).min(2 * spread2_).max(std::pow(kLeastSpeed * age, 2));
-  return (kShare * kShare * before).max(changed2_ * std::pow(std::min(age, kLongest), 2));
+  return kShare * kShare * before;
 }
 
 }  // namespace prf_predictor

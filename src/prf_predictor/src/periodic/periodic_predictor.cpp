@@ -90,12 +90,11 @@ bool PeriodicPredictor::shows_change(const Eigen::Vector3d& position,
   const PointForecast expected = mixture(0, *filters_.transitions(0));
   const Eigen::Vector3d variance = expected.covariance.diagonal().head<3>();
   const Eigen::Vector3d innovation = position - expected.position;
-  const ObservedError error{since_measurement_, innovation.array().square(),
+  const ObservedError error{innovation.array().square(),
                             calibration_.sigma(since_measurement_, variance, scorer_).square() +
                                 covariance.diagonal().array()};
   calibration_.observe(innovation, covariance.diagonal(), variance, since_measurement_);
-  const bool is_sudden = change_.judge(error);
-  return change_.judge(scorer_.worst()) || is_sudden;
+  return MotionChange::is_shown_by(error) || MotionChange::is_shown_by(scorer_.worst());
 }
 
 void PeriodicPredictor::unsettle(const Eigen::Vector3d& position,

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a log line through at most once in a period of wall time. ROS_WARN_THROTTLE goes by ROS
+// Let a log line through at most once in a period of wall time. ROS_WARN_THROTTLE goes by ROS
 // time: in simulated time it says nothing in the first period, and nothing while the clock stands.
+// And all that one such line says shares its period, so that one reason hides another.
 //
 //   prf_ros::WallThrottle told_;
 //   if (told_.is_due()) ROS_WARN("...");
+//
+//   prf_ros::WallThrottles told_of_;
+//   if (told_of_.is_due(topic)) ROS_WARN("%s ...", topic.c_str());
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace prf_ros {
 
@@ -27,6 +33,15 @@ class WallThrottle {
  private:
   std::chrono::duration<double> period_;
   std::optional<std::chrono::steady_clock::time_point> last_;
+};
+
+// One for each key. Keys are few: topics, reasons; never text of a message.
+class WallThrottles {
+ public:
+  bool is_due(const std::string& key) { return told_[key].is_due(); }
+
+ private:
+  std::map<std::string, WallThrottle> told_;
 };
 
 }  // namespace prf_ros

@@ -9,11 +9,9 @@
 //    position over the last kMemory, a forecast of age a has at least the variance
 //      k^2 max(min((v a)^2, 2 s^2), (v_0 a)^2)   of each axis, k = kShare, v_0 = kLeastSpeed,
 //    which is that of a change of the whole velocity between one image in 1 / k^2 and the next.
-// 2. A change. An error e of a prediction that was a old when it came due (an innovation, or a
-//    short forecast) shows one when e^2 beside the variance that was expected exceeds kSurprise,
+// 2. A change. The error e of a prediction that came due (an innovation, or a short forecast) shows
+// one when e^2 beside the variance that was expected exceeds kSurprise,
 //    mean of the axes.
-// 3. After a change the velocity is another one by u = e / a. A forecast of age a has at least the
-//    variance (u min(a, kLongest))^2, and u is forgotten within kRecovery.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +20,6 @@ namespace prf_predictor {
 
 // An error that was seen, and what was thought of it before.
 struct ObservedError {
-  double age = 0.0;                                  // s, of the prediction
   Eigen::Array3d squared = Eigen::Array3d::Zero();   // e^2, m^2
   Eigen::Array3d expected = Eigen::Array3d::Ones();  // its variance, m^2
   [[nodiscard]] double ratio() const { return (squared / expected).mean(); }
@@ -34,14 +31,12 @@ class MotionChange {
   static constexpr double kLeastSpeed = 0.07;  // m/s
   static constexpr double kMemory = 6.0;       // s
   static constexpr double kSurprise = 16.0;    // a robot's touch-downs stay below
-  static constexpr double kRecovery = 0.7;     // s
-  static constexpr double kLongest = 1.0;      // s
 
   void begin(const Eigen::Vector3d& position);
   // A measurement `elapsed` s after the one before. `noise`: its variance.
   void observe(const Eigen::Vector3d& position, const Eigen::Vector3d& noise, double elapsed);
   // Whether the error shows a change.
-  bool judge(const ObservedError& error);
+  [[nodiscard]] static bool is_shown_by(const ObservedError& error);
 
   [[nodiscard]] Eigen::Array3d least_variance(double age) const;  // m^2
 
@@ -50,7 +45,6 @@ class MotionChange {
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
   Eigen::Array3d spread2_ = Eigen::Array3d::Zero();
   Eigen::Array3d speed2_ = Eigen::Array3d::Zero();
-  Eigen::Array3d changed2_ = Eigen::Array3d::Zero();  // u^2
 };
 
 }  // namespace prf_predictor
