@@ -156,6 +156,7 @@ class TrainHmm(unittest.TestCase):
                 ("train_hmm", [self.path("none.bag")], "none.bag"),
                 ("train_hmm", [nonsense], "train_hmm:"),
                 ("train_hmm", [self.bags[0], "--restarts", "0"], "restarts = 0"),
+                ("train_hmm", [self.bags[0], "--restart", "3"], "--restart"),
                 ("simulate", ["--out", "x.bag", "--seed", "1", "--duration", "-1"], "--duration"),
                 ("simulate", ["--out", self.path("x.bag"), "--seed", "1", "--duration", "1",
                               "--hmm", self.path("no.yaml")], "no.yaml: there is no such file")):
