@@ -3,7 +3,7 @@
 import argparse
 
 from prf_experiments import files
-from prf_experiments.judge import invariants, judge, reaction, timeline
+from prf_experiments.judge import cause, invariants, judge, reaction, timeline
 from prf_experiments.record import digest, recording
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
@@ -32,13 +32,19 @@ def judge_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
+        why = ""
         try:
-            verdict, found = _checked(recording.read(options.bag))
+            data = recording.read(options.bag)
+            verdict, found = _checked(data)
+            why = cause.sentence(data, verdict)
         except recording.RecordingError as error:
             verdict, found = judge.invalid(str(error)), invariants.Findings()
         if options.json:
-            files.write_json(options.json, {**verdict.as_json(), "invariants": found.as_json()})
+            files.write_json(options.json, {**verdict.as_json(), "cause": why,
+                                            "invariants": found.as_json()})
         print(f"{verdict.verdict}{' (inspected)' if verdict.inspected else ''}: {verdict.reason}")
+        if why:
+            print(f"  {why}")
         for name, value in verdict.figures.items():
             print(f"  {name}: {value:.4g}" if isinstance(value, float) else f"  {name}: {value}")
         for violation in found.violations:
@@ -62,7 +68,7 @@ def inspect_main(words: list[str]) -> int:
             names = ("time_s", "off_axis_mm", "to_stand_off_mm", "following_mm", "event")
             lines = timeline.event_lines(data, verdict.figures)
             files.write_json(options.json, [dict(zip(names, line)) for line in lines])
-        print(timeline.text(data, verdict), end="")
+        print(timeline.text(data, verdict, cause.sentence(data, verdict)), end="")
         return 0
     return session.guarded("inspect", action)
 
@@ -82,8 +88,8 @@ def report_main(words: list[str]) -> int:
         description = data.description
         skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
                  or session.packaged("demonstrations", "inspect_box.csv"))
-        content = {**verdict.as_json(), "invariants": found.as_json(),
-                   "reaction": reaction.times(data), **description}
+        content = {**verdict.as_json(), "cause": cause.sentence(data, verdict),
+                   "invariants": found.as_json(), "reaction": reaction.times(data), **description}
         report.write(options.out, options.bag, data, content, demonstration.read(skill),
                      pictures.of(options.bag, data, verdict.figures) if verdict.figures
                      else report.NOTHING)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prf_experiments.judge import judge, reaction
+from prf_experiments.judge import judge, reaction, world
 from prf_experiments.record.recording import Recording
 from prf_msgs import enums
 from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
@@ -120,6 +120,13 @@ def _faults(data):
         yield Event(first, "fault", f"FAULT {fault}{span}" + "".join(": " + what for what in told))
 
 
+def _world(data):
+    for event in world.events(data):
+        if not event.injected:  # those are told as faults
+            yield Event(event.begin, "world", f"WORLD: {event.text}, until "
+                        f"{float(data.seconds(event.end)):.2f} s")
+
+
 def _milestones(data, figures):
     for key, text in (("reached_s", "reached, for 1.0 s by now"),
                       ("inspected_s", "inspected, for 2.0 s by now"), ("fallen_s", "fallen")):
@@ -142,7 +149,8 @@ def events(data: Recording, figures: dict) -> list[Event]:
     """All events in the order of time. `figures` are those of the verdict."""
     told = []
     for kind in (_phases(data), _detections(data), _forecasts(data), _plans(data), _control(data),
-                 _contacts(data), _logged_warnings(data), _faults(data), _milestones(data, figures)):
+                 _contacts(data), _logged_warnings(data), _faults(data), _world(data),
+                 _milestones(data, figures)):
         told += _limited(data, kind)
     return sorted(told, key=lambda event: event.stamp)
 
@@ -207,10 +215,10 @@ def losses(data: Recording) -> list[tuple[str, str, int]]:
     return found
 
 
-def text(data: Recording, verdict: judge.Verdict) -> str:
+def text(data: Recording, verdict: judge.Verdict, cause: str = "") -> str:
     """The whole timeline, for a terminal of 100 columns or more."""
     inspected = " (inspected)" if verdict.inspected else ""
-    lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", "",
+    lines = [f"{verdict.verdict}{inspected}: {verdict.reason}", *([cause] if cause else []), "",
              "  time, s  off axis, mm  to stand-off, mm  following, mm  event"]
     lines += [f"{time:9.2f}  {off:12.0f}  {to:+16.0f}  {following:13.1f}  {what}"
               for time, off, to, following, what in event_lines(data, verdict.figures)]

@@ -61,6 +61,7 @@ class Plan:
     message: str
     kkt_residual: float
     positions: np.ndarray  # (nodes, 3)
+    forecast_stamp: int = 0  # ns, of the forecast that it is for
 
 
 @dataclass
@@ -266,7 +267,8 @@ class _Reader:
     def _keep_plan(self, message):
         positions = np.array([pose_values(pose)[:3] for pose in message.poses]).reshape(-1, 3)
         self.plans.append(Plan(message.header.stamp.to_nsec(), message.status,
-                               message.message, message.kkt_residual, positions))
+                               message.message, message.kkt_residual, positions,
+                               message.forecast_stamp.to_nsec()))
 
     def stamps(self, topic):
         return np.array(self._stamps[topic], dtype=np.int64)

@@ -9,7 +9,7 @@ import rospkg
 
 from prf_experiments import files
 from prf_experiments.faults import catalogue, wiring
-from prf_experiments.judge import invariants, judge, reaction
+from prf_experiments.judge import cause, invariants, judge, reaction
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, isolation, processes, session, trial_arguments
@@ -58,13 +58,14 @@ def simulate(run: session.Session, description: dict) -> float:
         return wall
 
 
-def checked(data: recording.Recording | None, folder: str) -> dict:
-    """The invariants of every trial, and what the execution did about faults."""
+def checked(data: recording.Recording | None, verdict: judge.Verdict, folder: str) -> dict:
+    """The cause, the invariants of every trial, and what the execution did about faults."""
     left_over = processes.left_over(os.path.join(folder, "log"))
     if data is None:
         found = invariants.Findings([f"process left over: {command}" for command in left_over])
-        return {"invariants": found.as_json()}
-    return {"invariants": invariants.check(data, left_over=left_over).as_json(),
+        return {"cause": "", "invariants": found.as_json()}
+    return {"cause": cause.sentence(data, verdict),
+            "invariants": invariants.check(data, left_over=left_over).as_json(),
             "reaction": reaction.times(data)}
 
 
@@ -95,7 +96,8 @@ def evaluate(folder: str, description: dict, wall: float | None, failure: str,
         except recording.RecordingError as error:
             verdict = judge.invalid(str(error))
     simulated = verdict.figures.get("duration_s")
-    content = {**verdict.as_json(), **checked(data, folder), **description, "wall_time_s": wall,
+    content = {**verdict.as_json(), **checked(data, verdict, folder), **description,
+               "wall_time_s": wall,
                "simulated_per_real_time": simulated / wall if simulated and wall else None}
     try:  # the verdict comes last: where there is one, everything is there
         if draw != "false":
@@ -164,6 +166,8 @@ def run(values: dict, folder: str | None = None) -> int:
             os.remove(os.path.join(folder, "trial.bag"))
     print(f"verdict {content['verdict']}{' (inspected)' if content['inspected'] else ''}: "
           f"{content['reason']}")
+    if content["cause"]:
+        print(content["cause"])
     if content["simulated_per_real_time"]:
         print(f"simulated {content['figures']['duration_s']:.1f} s in {wall:.1f} s: "
               f"{content['simulated_per_real_time']:.2f} times real time")
