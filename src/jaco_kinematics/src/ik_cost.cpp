@@ -18,9 +18,6 @@ double IkCost::value(const JointVector& q) const {
 }
 
 double IkCost::self_motion(const JointVector& q, const JointVector& direction) const {
-  // Slope of the null-space objective (of order one) below which its step is shortened, so that it
-  // ends without chatter where the objective is least.
-  constexpr double kGentleSlope = 0.03;
   // Half of minus the cost's gradient and half of its second derivative along the direction.
   JointVector descent = params_.weight.cwiseProduct(seed_ - q);
   double curvature = direction.cwiseAbs2().dot(params_.weight);
@@ -32,10 +29,7 @@ double IkCost::self_motion(const JointVector& q, const JointVector& direction) c
     descent[i] += inward * params_.limit_weight * depth / params_.limit_margin;
     curvature += params_.limit_weight * slope * slope;
   }
-  double length = direction.dot(descent) / curvature;
-  const double slope = null_space_slope(q, direction);
-  length += params_.null_space_step * slope / std::hypot(slope, kGentleSlope);
-  return length;
+  return direction.dot(descent) / curvature;
 }
 
 JointVector IkCost::unwrapped(const JointVector& q) const {
@@ -49,23 +43,6 @@ JointVector IkCost::unwrapped(const JointVector& q) const {
 double IkCost::limit_depth(const JointVector& q, int joint) const {
   const double distance = jaco_joint_limits().upper[joint] - kPi - std::abs(q[joint] - kPi);
   return std::max(0.0, 1.0 - distance / params_.limit_margin);
-}
-
-// The null-space objective keeps joints 2 and 6 away from their limits and from their singularity
-// at pi. Its slope along the direction, of each joint 0 from null_space_margin on and at most 1.
-// (Joint 4 does not depend on the self-motion.)
-double IkCost::null_space_slope(const JointVector& q, const JointVector& direction) const {
-  constexpr double kPeak = 2.598;  // 3 sqrt(3) / 2, which is 1 / max of u (1 - u^2)
-  double sum = 0.0;
-  for (int i : {1, 5}) {
-    const double from_pi = q[i] - kPi;
-    const double to_limit = jaco_joint_limits().upper[i] - kPi - std::abs(from_pi);
-    const double u = from_pi / params_.null_space_margin;
-    const double away = std::abs(u) < 1.0 ? kPeak * u * (1.0 - u * u) : 0.0;
-    const double depth = std::clamp(1.0 - to_limit / params_.null_space_margin, 0.0, 1.0);
-    sum += direction[i] * (away - std::copysign(depth, from_pi));
-  }
-  return sum;
 }
 
 }  // namespace jaco_kinematics

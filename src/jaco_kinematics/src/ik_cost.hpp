@@ -18,7 +18,7 @@ class IkCost {
   [[nodiscard]] double value(const JointVector& q) const;
 
   // How far to go from q along a unit direction of self-motion [rad]: Newton's step to the least
-  // cost, and null_space_step or less along the null-space objective.
+  // cost.
   [[nodiscard]] double self_motion(const JointVector& q, const JointVector& direction) const;
 
   // Continuous joints in the turn nearest to the seed.
@@ -26,7 +26,6 @@ class IkCost {
 
  private:
   [[nodiscard]] double limit_depth(const JointVector& q, int joint) const;
-  [[nodiscard]] double null_space_slope(const JointVector& q, const JointVector& direction) const;
 
   JointVector seed_;
   IkParams params_;

@@ -147,8 +147,6 @@ void IkParams::validate() const {
   }
   require_between("limit_margin", limit_margin, 1e-3, kPi, "rad");
   require_between("limit_weight", limit_weight, 0.0, 1e3, "rad^2");
-  require_between("null_space_margin", null_space_margin, 1e-3, kPi, "rad");
-  require_between("null_space_step", null_space_step, 0.0, 0.3, "rad");
 }
 
 IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed, const IkParams& params) {

@@ -72,9 +72,7 @@ TEST(IkParams, RefuseValuesBeyondTheirBounds) {
   const std::vector<std::function<double*(IkParams&)>> members = {
       [](IkParams& params) { return &params.weight[2]; },
       [](IkParams& params) { return &params.limit_margin; },
-      [](IkParams& params) { return &params.limit_weight; },
-      [](IkParams& params) { return &params.null_space_margin; },
-      [](IkParams& params) { return &params.null_space_step; }};
+      [](IkParams& params) { return &params.limit_weight; }};
   for (const auto& member : members) {
     for (const double bad : {-1e-9, 1e308, kNan, kInfinity}) {
       IkParams params;

@@ -46,7 +46,6 @@ TEST(JacoInverse, StaysAtTheSeedThatAlreadySolves) {
   std::mt19937 generator(12);
   IkParams params;
   params.limit_weight = 0.0;
-  params.null_space_step = 0.0;
   for (int trial = 0; trial < 1000; ++trial) {
     const JointVector q = random_joints(&generator);
     const IkResult result = inverse(forward(q), q, params);
@@ -60,7 +59,6 @@ TEST(JacoInverse, PrefersTheSolutionNearestToTheSeed) {
   constexpr int kPoses = 2000;
   IkParams params;
   params.limit_weight = 0.0;
-  params.null_space_step = 0.0;
   std::mt19937 generator(17);
   std::uniform_real_distribution<> offset(-0.7, 0.7);
   int nearest = 0;

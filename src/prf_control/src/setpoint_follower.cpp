@@ -32,12 +32,6 @@ constexpr double kCatchUpRate = 12.0;         // [1/s]; the ticks come at 100 Hz
 constexpr double kCatchUpAcceleration = 1.0;  // [m/s^2]
 // [1/s] Rate at which the null-space objective draws the joints to those of the goal.
 constexpr double kNullSpaceRate = 2.0;
-// [rad] of every joint: the command is on its goal, so the null-space drift may go on.
-constexpr double kOnGoal = 1e-6;
-// The drift's change of velocity in one tick, as a share of what the acceleration limit allows:
-// it can start and end within one tick without meeting the limit.
-constexpr double kDriftShare = 0.8;
-
 // [rad] A joint that is farther outside its limits than rounding goes back inside.
 constexpr double kOutside = 1e-9;
 
@@ -115,6 +109,7 @@ void SetpointFollower::forget_setpoints() {
   refused_for_ = 0;
   changes_branch_ = false;
   transfers_ = false;
+  drift_speed_ = 0;
 }
 
 FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
@@ -210,10 +205,10 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   };
 
   // First the solution nearest to the command; where that jumps, the one nearest to the last goal.
-  const IkParams ik = ik_params(dt);
-  IkResult solution = jaco_kinematics::inverse(pose, state().position, ik);
+  const JointVector drift = posture_drift(dt);
+  IkResult solution = jaco_kinematics::inverse(pose, state().position + drift * dt);
   if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
-    solution = jaco_kinematics::inverse(pose, reference, ik);
+    solution = jaco_kinematics::inverse(pose, reference);
   }
   const bool solved = solution.status == IkStatus::kSolved;
   const JointVector q =
@@ -232,16 +227,15 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   changes_branch_ = (refused || changes_branch_) && !far && to_go > kArrived;
   if (changes_branch_) return {GoalKind::kChangesBranch, {q, JointVector::Zero()}, joint, to_go};
   if (!solved) return {GoalKind::kNearest, {q, JointVector::Zero()}, -1, 0.0};
-  return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt)}, -1, 0.0};
+  return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt) + drift}, -1, 0.0};
 }
 
-// The null-space drift runs while the command is on its goal, not on the way there.
-IkParams SetpointFollower::ik_params(double dt) const {
-  const bool on_goal = goal_ && (state().position - *goal_).cwiseAbs().maxCoeff() < kOnGoal;
-  IkParams ik;
-  ik.null_space_step =
-      on_goal ? std::min(kNullSpaceSpeed * dt, kDriftShare * params_.acceleration * dt * dt) : 0.0;
-  return ik;
+// Not on the way to a far set-point and to another branch, where all joints go together.
+JointVector SetpointFollower::posture_drift(double dt) {
+  const bool drifts = !transfers_ && !changes_branch_;
+  const double change = kPostureAcceleration * dt;
+  drift_speed_ += std::clamp((drifts ? kPostureSpeed : 0.0) - drift_speed_, -change, change);
+  return drift_speed_ * jaco_kinematics::posture_motion(state().position);
 }
 
 // Zero where the pose of one period ago has no solution near the goal.
@@ -252,7 +246,6 @@ JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const 
   }
   IkParams nearest;
   nearest.limit_weight = 0.0;
-  nearest.null_space_step = 0.0;
   const IkResult before = jaco_kinematics::inverse(moved_back(setpoint, dt), goal, nearest);
   const JointVector step = goal - before.q;
   const bool continuous =

@@ -52,6 +52,16 @@ Jacobian jacobian(const JointVector& q);
 // Arm angle of a configuration, in (-pi, pi].
 double arm_angle(const JointVector& q);
 
+// [rad] Ours: the arm angle of the preferred posture, the elbow low on the side of joint 1's
+// positive turn.
+inline constexpr double kPreferredArmAngle = 2.7;
+
+// Self-motion toward the preferred posture: a joint motion of norm below 1 that leaves the hand in
+// place, toward kPreferredArmAngle and away from the limits of joints 2 and 6. It goes to zero in
+// the posture, which depends on the hand's pose alone: with it, hand motions that come back bring
+// the joints back.
+JointVector posture_motion(const JointVector& q);
+
 struct IkSolution {
   int branch;                // 4 * shoulder + 2 * elbow + wrist, each 0 or 1; shoulder is 0 for q2
                              // in [0, pi], wrist is 0 for q6 in [0, pi]
@@ -77,11 +87,6 @@ struct IkParams {
   // limit.
   double limit_margin = 0.3;    // [rad], 0.001 to pi
   double limit_weight = 0.001;  // [rad^2], 0 to 1000; small: continuity comes first
-  // Null-space objective: while joint 2 or 6 is within null_space_margin of a limit or of its
-  // singularity at pi, the solution is moved away from there by at most null_space_step of
-  // self-motion. With each result as the next seed this is a steady drift; the hand stays.
-  double null_space_margin = 0.5;   // [rad], 0.001 to pi
-  double null_space_step = 0.0004;  // [rad] in the norm of q, 0 to 0.3; 0.04 rad/s at 100 Hz
 
   void validate() const;
 };

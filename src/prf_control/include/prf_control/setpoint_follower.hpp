@@ -44,9 +44,10 @@ struct FollowerParams {
 // back inside the joint limits. The motion is slow because the hand leaves its path meanwhile.
 inline constexpr double kSlowly = 0.25;
 
-// [rad/s] Speed of the null-space drift, norm of all joints; less where the acceleration limit
-// asks for it. docs/results/kinematics.md says what the drift gains.
-inline constexpr double kNullSpaceSpeed = 0.04;
+// [rad/s], [rad/s^2] Greatest speed of the drift to the preferred posture, norm of all joints, and
+// how it comes up. docs/results/kinematics.md says what the drift gains.
+inline constexpr double kPostureSpeed = 0.6;
+inline constexpr double kPostureAcceleration = 0.5;
 
 struct PoseSetpoint {
   Eigen::Isometry3d hand_in_base = Eigen::Isometry3d::Identity();
@@ -103,7 +104,7 @@ class SetpointFollower {
   Goal choose_goal(const PoseSetpoint& setpoint, double dt);
   FollowerStep step_toward_goal(const PoseSetpoint& setpoint, const Goal& goal, double dt);
   FollowerStep step_inside(double dt);
-  jaco_kinematics::IkParams ik_params(double dt) const;
+  JointVector posture_drift(double dt);
   void forget_setpoints();
   LimitedStep resolved_rate_step(const PoseSetpoint& setpoint, const MotionState& goal,
                                  double dt) const;
@@ -121,6 +122,7 @@ class SetpointFollower {
   double refused_for_ = 0;                      // [s], a change of branch, without a break
   bool changes_branch_ = false;
   bool transfers_ = false;  // on the way to a set-point that was far from the one before
+  double drift_speed_ = 0;  // [rad/s]
 };
 
 }  // namespace prf_control
