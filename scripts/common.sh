@@ -45,7 +45,7 @@ listed() { sed 's/#.*//' "$1" | tr -s ' \n' '\n' | sed '/^$/d'; }
 
 # install_debian_packages LIST: what a list of scripts/ names
 install_debian_packages() {
-  command -v apt-get >/dev/null || die "this needs Debian 12 (apt-get was not found)"
+  command -v apt-get >/dev/null || die "this needs Debian 12 or 13 (apt-get was not found)"
   local missing=() package
   for package in $(listed "$repo/scripts/$1"); do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")

@@ -141,7 +141,7 @@ class Plans(unittest.TestCase):
 class Sessions(unittest.TestCase):
     def test_keep_what_is_executed_and_follow_the_goal(self):
         session = Planner().fit(wave()).session()
-        executed = np.empty((0, 2))
+        executed: np.ndarray = np.empty((0, 2))
         for k in range(2, 51):
             goal = np.array([1.0 + 0.002 * k, 0.05 * np.sin(0.2 * k)])
             plan = session.plan(goal, executed=k)

@@ -60,7 +60,7 @@ class Predictors(unittest.TestCase):
         measured, _ = sway()
         predictor = Predictor("periodic")
         for time, position in zip(TIMES, measured):
-            predictor.update(time, position, SIGMA)
+            predictor.update(float(time), position, SIGMA)
         periodicity = predictor.periodicity()
         assert periodicity is not None
         self.assertGreater(periodicity.probability, 0.5)

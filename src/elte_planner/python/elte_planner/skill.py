@@ -49,6 +49,10 @@ def _as_demonstration(rows: Array, times: Array, quaternions: Array | None) -> D
     return Demonstration(times, positions, quaternions, "given", "hand", np.array([0, 0, 0, 0, 0, 0, 1.0]))
 
 
+def _even(count: int) -> Array:
+    return np.linspace(0.0, 1.0, count, dtype=np.float64)
+
+
 def _resampled(rows: Array, nodes: int) -> Array:
     """By arc length, for more dimensions than a Demonstration has."""
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(rows, axis=0), axis=1))])
@@ -63,8 +67,9 @@ def _many_dimensional(arrays: list[Array], nodes: int | None, thin: float | None
                          f"not {arrays[0].shape[1]}")
     if nodes is None and len(arrays) > 1:
         raise ValueError("several demonstrations need a number of nodes")
-    mean = np.mean([array if nodes is None else _resampled(array, nodes) for array in arrays], axis=0)
-    return Skill(mean, np.linspace(0.0, 1.0, len(mean)), None, tuple(arrays))
+    same = [array if nodes is None else _resampled(array, nodes) for array in arrays]
+    mean: Array = np.asarray(np.mean(same, axis=0), dtype=np.float64)
+    return Skill(mean, _even(len(mean)), None, tuple(arrays))
 
 
 def _is_array(source: Source) -> bool:
@@ -102,9 +107,9 @@ def make_skill(given: Source | Sequence[Source], *, quaternions: ArrayLike | Non
         return _many_dimensional(arrays, nodes, thin, alignment)
     turns = None if quaternions is None else rows_of(quaternions, "quaternions")
     if arrays:
-        demonstrations = [
-            _as_demonstration(array, np.linspace(0.0, 1.0, len(array)) if times is None else np.asarray(times, float),
-                              turns) for array in arrays]
+        demonstrations = [_as_demonstration(
+            array, _even(len(array)) if times is None else np.asarray(times, dtype=np.float64), turns)
+            for array in arrays]
     else:
         demonstrations = [source if isinstance(source, Demonstration) else
                           load_demonstration(os.fspath(source))  # type: ignore[arg-type]

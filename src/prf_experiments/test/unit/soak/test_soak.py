@@ -34,8 +34,8 @@ class Measures(unittest.TestCase):
         times = np.arange(0.0, 3600.0, 5.0)
         filling = 50.0 - 20.0 * np.exp(-times / 100.0)
         leaking = 50.0 + times / 3600.0 * 10.0
-        rows = measures.memory({"still": [(t, m, 7) for t, m in zip(times, filling)],
-                                "leak": [(t, m, 8) for t, m in zip(times, leaking)]})
+        rows = measures.memory({"still": [(float(t), float(m), 7) for t, m in zip(times, filling)],
+                                "leak": [(float(t), float(m), 8) for t, m in zip(times, leaking)]})
         leak, still = rows
         self.assertTrue(measures.grows(leak))
         self.assertAlmostEqual(leak["growth_mb_per_h"], 10.0, places=6)
