@@ -45,7 +45,7 @@ void WorldParams::validate() const {
         "motion is '" + motion +
         "', must be none in the scenario cart, where nothing moves the floor");
   }
-  const PlatformMotion deck_motion(motion);
+  const PlatformMotion deck_motion(motion, seed);
   if (!body_motion.empty()) require_body_motion(body_motion);
   v60_gait::require_gait(gait);
   if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {

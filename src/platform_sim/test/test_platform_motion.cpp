@@ -33,7 +33,10 @@ TEST(PlatformMotion, StartsAtRestWhateverTheSeed) {
 // The pitch rate is computed from the lag's equation, so this also proves the closed form of pitch.
 TEST(PlatformMotion, TwistIsTheDerivativeOfThePose) {
   constexpr double kStep = 1e-5;
-  for (const std::string& preset : preset_names()) {
+  std::vector<std::string> motions = preset_names();
+  for (const char* family : {"heavy:2.5", "sea:1.5", "bursts:2.75", "stop:2"})
+    motions.emplace_back(family);
+  for (const std::string& preset : motions) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const PlatformMotion motion(preset, seed);
       for (double time = -0.5; time < 12.0; time += 0.0917) {
@@ -114,8 +117,9 @@ TEST(PlatformMotion, RefusesUnknownPresetAndNamesTheValidOnes) {
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "motion is 'stormy', must be one of: none, light, heavy, as_printed, or a file "
-                 ".yaml or .csv");
+                 "motion is \"stormy\": must be one of: none, as_printed, as_printed_heavy, heavy, "
+                 "light, ship, ship_sea_state, ship_underway, heavy:LEVEL, sea:LEVEL, "
+                 "bursts:LEVEL, stop:LEVEL, or a file .yaml or .csv");
   }
 }
 

@@ -16,14 +16,14 @@ namespace platform_sim {
 ///   command(t) = r(t) sum_i A_i sin(w_i (t + t0) + p_i),       r: raised cosine 0 -> 1 in 2 s
 ///   lag dq/dt + q = command,  q(0) = 0;                        q = command without a lag
 ///
-/// or q(t) = r(t) recording(t). The deck goes by (surge, sway, heave) and turns by
-/// Rz(yaw) Ry(pitch) Rx(roll) about a point 0.16 m below and 0.1 m behind its centre; positive
-/// pitch lowers the front. At t <= 0 it is at rest. t0 is 0 without a seed, else drawn from it
-/// within 0..20 s.
+/// or q(t) = r(t) recording(t). A profile with a PlayPattern plays q by it. The deck goes by
+/// (surge, sway, heave) and turns by Rz(yaw) Ry(pitch) Rx(roll) about a point 0.16 m below and 0.1
+/// m behind its centre; positive pitch lowers the front. At t <= 0 it is at rest. t0 is 0 without a
+/// seed, else drawn from it within 0..20 s.
 class PlatformMotion {
  public:
   /// Throws what find_profile() throws.
-  explicit PlatformMotion(const std::string& preset_or_path,
+  explicit PlatformMotion(const std::string& motion,
                           std::optional<std::uint64_t> seed = std::nullopt);
 
   [[nodiscard]] FrameState deck(double time) const;

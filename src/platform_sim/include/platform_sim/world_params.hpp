@@ -21,7 +21,7 @@ struct WorldParams {
   /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
   /// pushes aside (CartPush), and motion must be none.
   std::string scenario = "treadmill";
-  std::string motion = "none";  ///< preset or file, see find_profile()
+  std::string motion = "none";  ///< see find_profile()
   std::string body_motion;      ///< CSV file: carries base_link over the deck; empty: legs do
   std::string gait = "stand";   ///< one of gait_names()
   std::uint64_t seed =

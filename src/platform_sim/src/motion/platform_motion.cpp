@@ -73,18 +73,25 @@ Eigen::Matrix3d turn(double angle, const Eigen::Vector3d& axis) {
 
 }  // namespace
 
-PlatformMotion::PlatformMotion(const std::string& preset_or_path, std::optional<std::uint64_t> seed)
-    : profile_(find_profile(preset_or_path)),
+PlatformMotion::PlatformMotion(const std::string& motion, std::optional<std::uint64_t> seed)
+    : profile_(find_profile(motion, seed.value_or(0))),
       start_phase_time_(seed ? draw_phase_time(*seed) : 0.0) {}
 
 PlatformMotion::AxisState PlatformMotion::axis(Axis axis, double time) const {
   AxisState state;
   if (time <= 0.0) return state;
   const auto index = static_cast<std::size_t>(axis);
+  const PlayPattern::State played =
+      profile_.pattern ? profile_.pattern->at(time) : PlayPattern::State{1.0, 0.0, time, 1.0};
   for (const Sine& sine : profile_.axes[index].sines) {
-    const AxisState part = state_of(sine, profile_.axes[index].lag, start_phase_time_, time);
+    const AxisState part =
+        state_of(sine, profile_.axes[index].lag, start_phase_time_, played.place);
     state.value += part.value;
     state.velocity += part.velocity;
+  }
+  if (profile_.pattern) {
+    state = {played.amount * state.value,
+             played.amount_rate * state.value + played.amount * played.speed * state.velocity};
   }
   if (!profile_.recording) return state;
   const auto& columns = profile_.recording->columns();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <prf_core/quoted.hpp>
 #include <prf_core/readable_file.hpp>
 #include <prf_core/require.hpp>
 #include <set>
@@ -12,12 +13,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "motion_families.hpp"
+#include "packaged_profiles.hpp"
+#include "profile_reach.hpp"
+
 namespace platform_sim {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kTwoPi = 2.0 * 180.0 * kDegree;
-constexpr double kPitchLag = 0.42;          // s, of the real treadmill
 constexpr double kShortestLag = 0.01;       // s
 constexpr double kLongestLag = 10.0;        // s
 constexpr double kLargestAmplitude = 10.0;  // m or rad, before the bounds of bounds_of()
@@ -25,35 +27,8 @@ constexpr double kFastestRate = 200.0;      // rad/s
 constexpr double kLargestPhase = 1000.0;    // rad
 constexpr std::size_t kMostSines = 1000;    // per axis
 
-PlatformProfile sway_and_pitch(const Sine& sway, const Sine& pitch, double pitch_lag) {
-  PlatformProfile profile;
-  profile.axes[static_cast<std::size_t>(Axis::kSway)].sines = {sway};
-  profile.axes[static_cast<std::size_t>(Axis::kPitch)] = {{pitch}, pitch_lag};
-  return profile;
-}
-
-PlatformProfile carried(PlatformProfile profile) {
-  profile.carries_base = true;
-  return profile;
-}
-
-// The heavy preset's command leads so that the realised pitch lags the sway by 0.64 rad, as it was
-// measured on the treadmill that light and heavy describe. as_printed takes the paper's light
-// motion literally: 0.5 m at 2 Hz, 3 deg at 1.5 Hz.
-const std::vector<std::pair<std::string, PlatformProfile>>& presets() {
-  static const std::vector<std::pair<std::string, PlatformProfile>> all{
-      {"none", {}},
-      {"light", sway_and_pitch({0.05, 2.0, 0.0}, {3.0 * kDegree, 1.5, 0.0}, kPitchLag)},
-      {"heavy", sway_and_pitch({0.05, 2.4, 0.0}, {8.0 * kDegree, 2.4, 0.15}, kPitchLag)},
-      {"as_printed",
-       carried(sway_and_pitch({0.5, 2.0 * kTwoPi, 0.0}, {3.0 * kDegree, 1.5 * kTwoPi, 0.0}, 0.0))},
-  };
-  return all;
-}
-
-struct Bounds {
-  double value, velocity, acceleration;
-};
+// Largest magnitudes that are let through; units as in Reach.
+using Bounds = Reach;
 
 Bounds bounds_of(std::size_t axis, bool carries_base) {
   const bool is_linear = axis < 3;
@@ -77,16 +52,12 @@ void require_within(std::size_t axis, const Bounds& bounds, const Bounds& reache
                   is_linear ? "m/s2" : "rad/s2");
 }
 
-// What the sines reach together; a lag makes each smaller by cos(atan(rate lag)).
-Bounds reach_of(const AxisProfile& axis) {
-  Bounds reach{};
-  for (const Sine& sine : axis.sines) {
-    const double amplitude = std::abs(sine.amplitude) * std::cos(std::atan(sine.rate * axis.lag));
-    reach.value += amplitude;
-    reach.velocity += amplitude * sine.rate;
-    reach.acceleration += amplitude * sine.rate * sine.rate;
-  }
-  return reach;
+// The sum of the amplitudes is cheap; the truth is looked for where the sum is too much.
+Reach true_reach_of(const AxisProfile& axis, const Bounds& bounds) {
+  const Reach most = reach_of(axis);
+  const bool is_surely_within = most.value <= bounds.value && most.velocity <= bounds.velocity &&
+                                most.acceleration <= bounds.acceleration;
+  return is_surely_within || axis.sines.size() == 1 ? most : sampled_reach_of(axis);
 }
 
 void require_sound(const std::string& name, const AxisProfile& axis) {
@@ -136,9 +107,7 @@ AxisProfile read_axis(const YAML::Node& node, const std::string& name) {
   return axis;
 }
 
-PlatformProfile read_yaml(const std::string& path) {
-  prf_core::require_readable_file(path);
-  const YAML::Node file = YAML::LoadFile(path);
+PlatformProfile read_yaml(const YAML::Node& file) {
   std::set<std::string> known(kAxisNames.begin(), kAxisNames.end());
   known.insert("base");
   refuse_unknown(file, "the file", known);
@@ -154,6 +123,11 @@ PlatformProfile read_yaml(const std::string& path) {
     profile.carries_base = base == "carried";
   }
   return profile;
+}
+
+PlatformProfile read_yaml_file(const std::string& path) {
+  prf_core::require_readable_file(path);
+  return read_yaml(YAML::LoadFile(path));
 }
 
 PlatformProfile read_csv(const std::string& path) {
@@ -175,12 +149,27 @@ bool ends_in(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+std::optional<PlatformProfile> preset_of(const std::string& name) {
+  if (name == "none") return PlatformProfile{};
+  for (const PackagedProfile& profile : packaged_profiles()) {
+    if (profile.name == name) return read_yaml(YAML::Load(profile.text));
+  }
+  return std::nullopt;
+}
+
+std::string joined(const std::vector<std::string>& names, const std::string& ending = "") {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name + ending;
+  return text;
+}
+
 }  // namespace
 
 void PlatformProfile::validate() const {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     require_sound(kAxisNames[i], axes[i]);
-    require_within(i, bounds_of(i, carries_base), reach_of(axes[i]));
+    const Bounds bounds = bounds_of(i, carries_base);
+    require_within(i, bounds, true_reach_of(axes[i], bounds));
   }
   if (!recording) return;
   const RecordedMotion::Extremes most = recording->extremes();
@@ -196,30 +185,31 @@ void PlatformProfile::validate() const {
 
 const std::vector<std::string>& preset_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> result;
-    for (const auto& preset : presets()) result.push_back(preset.first);
+    std::vector<std::string> result{"none"};
+    for (const PackagedProfile& profile : packaged_profiles()) result.emplace_back(profile.name);
     return result;
   }();
   return names;
 }
 
-PlatformProfile find_profile(const std::string& preset_or_path) {
-  std::string valid;
-  for (const auto& [name, profile] : presets()) {
-    if (name == preset_or_path) return profile;
-    valid += (valid.empty() ? "" : ", ") + name;
-  }
-  const bool is_yaml = ends_in(preset_or_path, ".yaml");
-  if (!is_yaml && !ends_in(preset_or_path, ".csv")) {
-    throw std::invalid_argument("motion is '" + preset_or_path + "', must be one of: " + valid +
-                                ", or a file .yaml or .csv");
-  }
+PlatformProfile find_profile(const std::string& motion, std::uint64_t seed) {
+  if (const auto preset = preset_of(motion)) return *preset;
+  const bool is_yaml = ends_in(motion, ".yaml");
+  const bool is_csv = ends_in(motion, ".csv");
   try {
-    PlatformProfile profile = is_yaml ? read_yaml(preset_or_path) : read_csv(preset_or_path);
+    PlatformProfile profile;
+    if (is_yaml || is_csv) {
+      profile = is_yaml ? read_yaml_file(motion) : read_csv(motion);
+    } else if (auto family = family_profile(motion, *preset_of("heavy"), seed)) {
+      profile = *std::move(family);
+    } else {
+      throw std::invalid_argument("must be one of: " + joined(preset_names()) + ", " +
+                                  joined(family_names(), ":LEVEL") + ", or a file .yaml or .csv");
+    }
     profile.validate();
     return profile;
   } catch (const std::exception& error) {
-    throw std::invalid_argument("motion is '" + preset_or_path + "': " + error.what());
+    throw std::invalid_argument("motion is " + prf_core::quoted(motion) + ": " + error.what());
   }
 }
 

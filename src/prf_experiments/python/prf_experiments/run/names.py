@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of predictors and planners, from where they are defined.
+"""Names of worlds, predictors and planners, from where they are defined.
 
 In the sources they are read without ROS, so that arguments are checked before anything is built;
 once installed, the packages say them.
@@ -10,13 +10,36 @@ import re
 _SOURCES = os.path.join(os.path.dirname(os.path.realpath(__file__)), *[".."] * 4)
 
 
+def _in_package(package: str, *parts: str) -> str:
+    path = os.path.join(_SOURCES, package, *parts)
+    if os.path.exists(path):
+        return path
+    import rospkg
+    return os.path.join(rospkg.RosPack().get_path(package), *parts)
+
+
+def _files(package: str, *folder: str) -> list[str]:
+    found = os.listdir(_in_package(package, *folder))
+    return sorted(name[:-5] for name in found if name.endswith(".yaml"))
+
+
 def predictor_names() -> list[str]:
     """One for each file of prf_predictor/config/predictors, sorted."""
-    folder = os.path.join(_SOURCES, "prf_predictor", "config", "predictors")
-    if not os.path.isdir(folder):
-        import rospkg
-        folder = os.path.join(rospkg.RosPack().get_path("prf_predictor"), "config", "predictors")
-    return sorted(name[:-5] for name in os.listdir(folder) if name.endswith(".yaml"))
+    return _files("prf_predictor", "config", "predictors")
+
+
+def motion_names() -> list[str]:
+    """Presets of the platform's motion: none, and the files of platform_sim/config/profiles."""
+    return ["none", *_files("platform_sim", "config", "profiles")]
+
+
+def of_worlds(key: str) -> list[str]:
+    """The values of a line of platform_sim/config/worlds.yaml. YAML's reader may not be there yet."""
+    with open(_in_package("platform_sim", "config", "worlds.yaml"), encoding="utf-8") as stream:
+        line = re.search(rf"^{key}: \[?([^\]#\n]*)", stream.read(), re.M)
+    if line is None:
+        raise KeyError(key)
+    return [word.strip() for word in line[1].split(",")]
 
 
 def planner_names() -> list[str]:

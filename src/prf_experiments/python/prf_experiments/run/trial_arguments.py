@@ -33,12 +33,28 @@ def faults():
     return {"valid": "NAME[/TARGET][:AMOUNT][@TIME]", "parse": parse}
 
 
+def motions():
+    """A preset, FAMILY:LEVEL, or a file."""
+    preset = choice_or_file(*names.motion_names(), endings=(".yaml", ".csv"))
+    families = names.of_worlds("motion_families")
+    level = number(0.0, float(names.of_worlds("highest_motion_level")[0]))
+
+    def parse(text):
+        family, colon, amount = text.partition(":")
+        if not colon or family not in families:
+            return preset["parse"](text)
+        return f"{family}:{level['parse'](amount):g}"
+    words = [*names.motion_names(), *(f"{family}:LEVEL" for family in families)]
+    return {"valid": "|".join([*words, "FILE.yaml|FILE.csv"]), "parse": parse}
+
+
 # Given to trial.launch, and part of every result's name.
 NAMED = {
-    "motion": Argument("light", **choice_or_file("none", "light", "heavy", "as_printed",
-                                                 endings=(".yaml", ".csv")),
-                       meaning="how the platform moves; with scenario:=cart none"),
-    "gait": Argument("stand", **choice("stand", "stand_stiff", "step"), meaning="what the legs do"),
+    "motion": Argument("light", **motions(),
+                       meaning="how the platform moves; LEVEL 0 to "
+                       f"{names.of_worlds('highest_motion_level')[0]}, 1 as fast as heavy; with "
+                       "scenario:=cart none"),
+    "gait": Argument("stand", **choice(*names.of_worlds("gaits")), meaning="what the legs do"),
     "planner": Argument("elte", **choice(*names.planner_names()),
                         meaning="how the skill is adapted"),
     "framework": Argument(True, **boolean(),
@@ -48,7 +64,7 @@ NAMED = {
 # Given to trial.launch, and named where they are not the default.
 LAUNCHED = {
     **NAMED,
-    "scenario": Argument("treadmill", **choice("treadmill", "cart"),
+    "scenario": Argument("treadmill", **choice(*names.of_worlds("scenarios")),
                          meaning="cart: the box is on a cart that a hand pushes aside"),
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),

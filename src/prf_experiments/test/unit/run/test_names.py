@@ -20,6 +20,9 @@ class Names(unittest.TestCase):
     def test_defaults_are_among_them(self):
         defaults = {name: argument.default for name, argument in trial_arguments.NAMED.items()}
         self.assertIn(defaults["planner"], names.planner_names())
+        self.assertIn(defaults["motion"], names.motion_names())
+        self.assertIn(defaults["gait"], names.of_worlds("gaits"))
+        self.assertIn(trial_arguments.LAUNCHED["scenario"].default, names.of_worlds("scenarios"))
         self.assertIn(trial_arguments.LAUNCHED["predictor"].default, names.predictor_names())
 
 

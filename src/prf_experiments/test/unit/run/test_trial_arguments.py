@@ -37,6 +37,16 @@ class TrialArguments(unittest.TestCase):
             with self.assertRaises(args.ArgumentError):
                 self.values(word)
 
+    def test_a_motion_of_a_family_has_a_level(self):
+        for word, value in (("heavy:2", "heavy:2"), ("sea:0.50", "sea:0.5"), ("stop:0", "stop:0")):
+            values = self.values(f"motion:={word}")
+            self.assertEqual(values["motion"], value)
+            self.assertEqual(trial_arguments.name(values).split("_")[0],
+                             "motion-" + value.replace(":", "-"))
+        for word in ("heavy:", "heavy:x", "sea:-1", "bursts:3", "stop:nan", "light:1", "storm:1", "sea"):
+            with self.assertRaises(args.ArgumentError):
+                self.values(f"motion:={word}")
+
     def test_trials_of_files_with_one_name_are_told_apart_by_their_content(self):
         with tempfile.TemporaryDirectory() as folder:
             found = []
