@@ -88,8 +88,8 @@ def report_main(words: list[str]) -> int:
         description = data.description
         skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
                  or session.packaged("demonstrations", "inspect_box.csv"))
-        content = {**verdict.as_json(), "cause": cause.sentence(data, verdict),
-                   "invariants": found.as_json(), "reaction": reaction.times(data), **description}
+        content = {**description, **verdict.as_json(), "cause": cause.sentence(data, verdict),
+                   "invariants": found.as_json(), "reaction": reaction.times(data)}
         report.write(options.out, options.bag, data, content, demonstration.read(skill),
                      pictures.of(options.bag, data, verdict.figures) if verdict.figures
                      else report.NOTHING)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Made-up trials: as arrays for the judge, and as bags for what reads bags."""
+import json
+
 import diagnostic_msgs.msg
 import geometry_msgs.msg
 import nav_msgs.msg
@@ -95,7 +97,7 @@ class _Writer:
         self._bag.write("/" + topic, message, rospy.Time(0, int(stamp)), connection_header=header)
 
 
-def write_bag(path, data, skipped=(), hand=None, seed=0):
+def write_bag(path, data, skipped=(), hand=None, seed=0, description=None):
     """Bag of a made-up trial without the topics `skipped`; `hand` (n, 7) is in the arm's base."""
     noise = np.random.default_rng(seed).integers(0, 255, 16, dtype=np.uint8).tobytes()
     with rosbag.Bag(path, "w", compression="lz4") as bag:
@@ -105,8 +107,8 @@ def write_bag(path, data, skipped=(), hand=None, seed=0):
             _transform(0, "j2s7s300_end_effector", "camera_optical_frame",
                        [0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])]),
             START, "/robot_state_publisher")
-        writer.add("trial/description", std_msgs.msg.String('{"command": "made up"}'), START,
-                   "/observer")
+        writer.add("trial/description", std_msgs.msg.String(json.dumps(
+            {"command": "made up", **(description or {})})), START, "/observer")
         for warning in data.warnings:
             writer.add("rosout", rosgraph_msgs.msg.Log(
                 level=rosgraph_msgs.msg.Log.WARN, name="/" + warning.node, msg=warning.text,

@@ -149,11 +149,40 @@ def transform_values(transform: Any) -> tuple[float, ...]:
     return (t.x, t.y, t.z, r.x, r.y, r.z, r.w)
 
 
+def read_object(text: str, what: str) -> dict:
+    """A JSON object. Raises ValueError."""
+    content = json.loads(text)
+    if not isinstance(content, dict):
+        raise ValueError(f"{what} is a JSON {type(content).__name__}, must be an object")
+    return content
+
+
+def read_description(text: str) -> dict:
+    """What trial/description holds, with arguments as a trial has them. Raises ValueError."""
+    content = read_object(text, topics.DESCRIPTION)
+    for part in ("arguments", "versions"):
+        if not isinstance(content.get(part, {}), dict):
+            raise ValueError(f"{part} of {topics.DESCRIPTION} must be an object")
+    for name in ("demonstration", "fault"):
+        if not isinstance(content.get("arguments", {}).get(name) or "", str):
+            raise ValueError(f"argument {name} of {topics.DESCRIPTION} must be a text")
+    return content
+
+
+def read_event(text: str) -> FaultEvent:
+    """What a message of fault/events holds. Raises ValueError."""
+    content = read_object(text, topics.EVENTS)
+    stamp, fault, what = (content.get(name) for name in ("stamp", "fault", "what"))
+    if not isinstance(stamp, int) or not isinstance(fault, str) or not isinstance(what, str):
+        raise ValueError(f"{topics.EVENTS} must tell a stamp in ns, a fault and what it does")
+    return FaultEvent(stamp, fault, what)
+
+
 def description(path: str) -> dict:
     """What a trial's bag says about itself: command, arguments, versions; {} when nothing."""
     with bags.opened(path) as bag:
         for _, message, _ in bag.read_messages(topics=["/" + topics.DESCRIPTION]):
-            return json.loads(message.data)
+            return read_description(message.data)
     return {}
 
 
@@ -231,11 +260,10 @@ class _Reader:
                      for values in (point.positions, point.velocities) for name in ARM_JOINTS)
 
     def _keep_event(self, message):
-        told = json.loads(message.data)
-        self.fault_events.append(FaultEvent(told["stamp"], told["fault"], told["what"]))
+        self.fault_events.append(read_event(message.data))
 
     def _keep_description(self, message):
-        self.description = json.loads(message.data)
+        self.description = read_description(message.data)
 
     def _keep_transforms(self, message):
         for item in message.transforms:

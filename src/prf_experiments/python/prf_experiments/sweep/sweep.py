@@ -87,9 +87,10 @@ def with_reports(trials: list[dict]) -> list[dict]:
 def begin(folder: str, versions: dict, any_version: bool) -> None:
     """Notes what makes the sweep; refuses to mix trials of several versions."""
     path = os.path.join(folder, "sweep.json")
-    with contextlib.suppress(OSError, ValueError), open(path, encoding="utf-8") as stream:
-        before = json.load(stream)["versions"]
-        if before != versions and not any_version:
+    with contextlib.suppress(OSError, ValueError, RecursionError), open(path, encoding="utf-8") as stream:
+        content = json.load(stream)
+        before = content.get("versions") if isinstance(content, dict) else None
+        if isinstance(before, dict) and before != versions and not any_version:
             raise SessionError(
                 f"{folder} holds trials of version {before.get('commit', before)}, this is "
                 f"{versions.get('commit', versions)}: go on with --any-version, or afresh with "

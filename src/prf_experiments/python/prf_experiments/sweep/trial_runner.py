@@ -21,6 +21,7 @@ from prf_experiments.run import trial_arguments
 ATTEMPTS = 2
 TIMEOUT = 1800.0  # s of wall time; a trial has its own, shorter limits
 STOP_TIMEOUT = 60.0  # s
+PARTS = {"verdict": str, "inspected": bool, "figures": dict, "arguments": dict}  # of every verdict.json
 KEEP_BAGS = ("failed", "all", "none")
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
@@ -91,9 +92,12 @@ def read(folder: str) -> dict | None:
     """Content of a folder's verdict.json, None when there is none that is whole."""
     try:
         with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as stream:
-            return json.load(stream)
-    except (OSError, ValueError):
+            content = json.load(stream)
+    except (OSError, ValueError, RecursionError):
         return None
+    whole = isinstance(content, dict) and all(
+        isinstance(content.get(name), kind) for name, kind in PARTS.items())
+    return content if whole else None
 
 
 def size(folder: str) -> int:
