@@ -39,7 +39,7 @@ class Parser(argparse.ArgumentParser):
             return message + meant(unknown[1], *options)
         wrong = re.fullmatch(r"(?:argument (\S+): )?invalid choice: '(.*)' \(choose from (.*)\)", message)
         if wrong:
-            choices = re.findall(r"'([^']*)'", wrong[3])
+            choices = [word.strip("'") for word in wrong[3].split(", ")]  # quoted before Python 3.12
             return (f"'{wrong[2]}' is no {wrong[1] or 'choice'}, must be one of {', '.join(choices)}"
                     + meant(wrong[2], *choices))
         return message
