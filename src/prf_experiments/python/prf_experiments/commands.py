@@ -74,7 +74,7 @@ def inspect_main(words: list[str]) -> int:
 
 
 def report_main(words: list[str]) -> int:
-    from prf_experiments.report import pictures, report  # matplotlib takes its time
+    from prf_experiments.report import pictures, report  # takes its time
     parser = args.Parser(prog="report", description="Draws the report of a trial.")
     parser.add_argument("bag")
     parser.add_argument("out", help="HTML file to write")

@@ -115,21 +115,29 @@ class ReducedSweep(unittest.TestCase):
         self.assertIn("0 trials in", run.out)
 
     def test_a_browser_goes_from_the_table_to_a_trial(self):
+        from selenium.webdriver.support.ui import WebDriverWait
         with browser() as page:
             page.get("file://" + os.path.join(self.results, "table", "index.html"))
             self.assertEqual(page.title, "Trials")
             page.find_element("css selector", "a.test").click()
             self.assertEqual(page.title, "Trial S")
             self.assertIn("motion-none", page.current_url)
-            self.assertIn("TRACKING", page.find_element("css selector", "pre.wide").text)
-            self.assertEqual(len(page.find_elements("css selector", "svg")), 5)
+            self.assertIn("TRACKING", page.find_element("css selector", ".timeline").text)
+            for plots in page.find_elements("css selector", ".plots"):
+                page.execute_script("arguments[0].scrollIntoView()", plots)
+                WebDriverWait(page, 30).until(
+                    lambda _, plots=plots: plots.find_elements("css selector", ".bk-Figure, .bk-GridPlot"))
+            film = "return document.querySelector('video')"
+            WebDriverWait(page, 30).until(lambda _: page.execute_script(film + ".duration > 5"))
             drawn = page.execute_script(
                 "return Array.from(document.images).map(i => i.complete ? i.naturalWidth : 0)")
             self.assertGreaterEqual(len(drawn), 3)
             self.assertGreater(min(drawn), 0)
             fetched = page.execute_script(
                 "return performance.getEntriesByType('resource').map(e => e.name)")
-            self.assertEqual([name for name in fetched if not name.startswith("data:")], [])
+            self.assertEqual([name for name in fetched if not name.startswith(("data:", "blob:"))], [])
+            page.find_element("css selector", ".back a").click()
+            self.assertEqual(page.title, "Trials")
 
 
 if __name__ == "__main__":

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command export."""
-import glob
 import os
-import sys
 
 from catkin.find_in_workspaces import find_in_workspaces
 
-from prf_experiments import files
+from prf_experiments import files, python_packages
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.run.arguments import ArgumentError
-
-ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 5)
 
 
 def _libraries():
@@ -19,13 +15,12 @@ def _libraries():
 
     Raises SessionError.
     """
-    sys.path[:0] = glob.glob(os.path.join(ROOT, ".venv", "lib", "python3*", "site-packages"))
+    python_packages.reach()
     try:
         from prf_experiments.export import export
     except ImportError as error:
         raise session.SessionError(
-            f"{error}; needs the Python packages rosbags and mcap, which Debian lacks: ./run_tests installs "
-            "them into .venv, elsewhere `pip install rosbags mcap` does") from None
+            f"{error}; {python_packages.how_to_get('rosbags', 'mcap')}") from None
     return export
 
 

@@ -210,7 +210,9 @@ def losses(data: Recording) -> list[tuple[str, str, int]]:
     found = []
     for node, values in sorted(data.diagnostics.items()):
         for key, texts in values.items():
-            if key not in COUNTS_OF_NO_LOSS and texts[-1].isdigit() and int(texts[-1]) > 0:
+            if key in COUNTS_OF_NO_LOSS or key.endswith(" received"):
+                continue
+            if texts[-1].isdigit() and int(texts[-1]) > 0:
                 found.append((node, key, int(texts[-1])))
     return found
 

@@ -1,96 +1,78 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a trial as inline SVG.
-
-Lines differ in colour (Okabe and Ito's palette), style and lightness, so that they can be told
-apart in black and white and with colour-vision deficiency.
-"""
-import io
+"""Figures of a trial. Time is in seconds since its first tick."""
 from typing import Any
 
-import matplotlib
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
-from prf_experiments.judge import judge, reaction
+from prf_experiments.judge import cause, judge, world
 from prf_experiments.record.recording import Contact, Recording
+from prf_experiments.report import plots
 
-TRUE = {"color": "black", "linewidth": 1.2}
-MEASURED = {"color": "#E69F00", "linestyle": "none", "marker": "o", "markersize": 4.5,
-            "markeredgewidth": 0.0, "alpha": 0.45}
-PREDICTED = {"color": "#0072B2", "linewidth": 1.1, "linestyle": (0, (4, 2))}
-PLANNED = {"color": "#0072B2", "linewidth": 2.6, "linestyle": (0, (3, 2)), "alpha": 0.7}
-DEMONSTRATED = {"color": "#009E73", "linewidth": 1.4, "linestyle": (0, (1, 1.5))}
+TRUE: dict[str, Any] = {"color": "black", "line_width": 1.5}
+MEASURED: dict[str, Any] = {"color": "#E69F00", "size": 4, "alpha": 0.45, "line_color": None}
+PREDICTED: dict[str, Any] = {"color": "#0072B2", "line_width": 1.3, "line_dash": [4, 2]}
+PLANNED: dict[str, Any] = {"color": "#0072B2", "line_width": 3, "line_dash": [3, 2], "alpha": 0.7}
+DEMONSTRATED: dict[str, Any] = {"color": "#009E73", "line_width": 1.6, "line_dash": [2, 3]}
 POSTERIORS: list[dict[str, Any]] = [  # in the order of judge.EXECUTION
-    {"color": "#009E73", "linestyle": "-"},
-    {"color": "#E69F00", "linestyle": (0, (5, 2))},
-    {"color": "#000000", "linestyle": (0, (1, 1.5))}]
-BOUND = {"color": "0.45", "linewidth": 0.8, "linestyle": (0, (6, 3))}
-SEEN = {"color": "0.25", "linestyle": "none", "marker": "|", "markersize": 5}
-BAR = "#56B4E9"
-FAULTY: dict[str, Any] = {"color": "0.6", "alpha": 0.35, "linewidth": 0.0, "zorder": 0}
-MAX_POINTS = 1500
+    {"color": "#009E73"}, {"color": "#E69F00", "line_dash": [5, 2]},
+    {"color": "black", "line_dash": [2, 3]}]
+COMPARED: list[dict[str, Any]] = [  # of several trials in one figure
+    {"color": "#D55E00", "line_width": 1.8, "line_dash": [6, 2]},
+    {"color": "#0072B2", "line_width": 1.8}, {"color": "black", "line_width": 1.8, "line_dash": [2, 3]}]
+TAG = "#D55E00"
+WORLD, INJECTED, HIDDEN = "#E69F00", "#808080", "#56B4E9"
+SHADES = ("Orange: what the world did. Grey: injected faults. Blue: the tag was out of view. The "
+          "buttons above move, zoom and reset; a click on a name hides its line.")
+LABELS = 6  # of events in a figure; more would hide the lines
 
 BOX_SIDE, BOX_DEPTH, BOX_ABOVE_TAG = 0.30, 0.20, -0.07  # m; the tag hangs above the box's centre
 
 Series = tuple[np.ndarray, np.ndarray]  # stamps (n,) ns, positions (n, 3) m
 
 
-def thin(*arrays: np.ndarray) -> list[np.ndarray]:
-    """Every n-th row of each array, so that about MAX_POINTS remain."""
-    step = max(1, len(arrays[0]) // MAX_POINTS)
-    return [array[::step] for array in arrays]
+def time_panels(recording: Recording, labels: list[tuple[str, int]], **named: Any) -> list[Any]:
+    """Panels over the trial's time, one below the other; labels: [(text, height px)]."""
+    span = plots.library().models.Range1d(0.0, float(recording.seconds(recording.ticks[-1])),
+                                          bounds="auto")
+    return [plots.panel(label, height, span, "time, s" if row == len(labels) - 1 else "", **named)
+            for row, (label, height) in enumerate(labels)]
 
 
-def svg(figure: Figure, description: str) -> Markup:
-    """The figure as an SVG element with its description for those who cannot see it."""
-    stream = io.StringIO()
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "prf"}):
-        figure.savefig(stream, format="svg", metadata={"Date": None})
-    text = stream.getvalue()
-    text = text[text.index("<svg"):]
-    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{description}"', 1))
+def mark_events(panels: list[Any], recording: Recording) -> None:
+    """What happened from outside, behind the lines; its words in the first panel."""
+    def seconds(stamp):
+        return float(recording.seconds(stamp))
+    for panel in panels:
+        for lost, found in cause.gaps(recording):
+            plots.shade(panel, seconds(lost), seconds(found), HIDDEN)
+        for row, event in enumerate(world.events(recording)):
+            text = event.short if panel is panels[0] and row < LABELS else ""
+            plots.shade(panel, seconds(event.begin), max(seconds(event.end), seconds(event.begin) + 0.05),
+                        INJECTED if event.injected else WORLD, text, row % 3)
 
 
-def _grid(axes):
-    axes.grid(True, color="0.88", linewidth=0.6)
-    axes.tick_params(labelsize=8)
-    axes.margins(x=0.01)
-
-
-def shade_faults(panels, recording: Recording) -> None:
-    """Grey where faults were injected."""
-    for _, first, last, _, _ in reaction.episodes(recording):
-        begin, end = float(recording.seconds(first)), float(recording.seconds(last))
-        for panel in panels:
-            panel.axvspan(begin, max(end, begin + 0.05), **FAULTY)
+def _states(panel, recording):
+    used = sorted(set(recording.progress.states))
+    times, states = plots.thin(recording.seconds(recording.progress.stamps),
+                               recording.progress.states)
+    plots.add_line(panel, times, states, step=True, **TRUE)
+    plots.name_values(panel, {int(state): judge.STATES[state].lower() for state in used})
+    panel.y_range = plots.library().models.Range1d(used[0] - 0.5, used[-1] + 0.5)
 
 
 def following(recording: Recording) -> Markup:
     """Position and rotation of the measured hand against its set-point, and the phase."""
-    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
-    position, rotation, phase = figure.subplots(3, 1, sharex=True)
+    panels = time_panels(recording, [("position, mm", 150), ("rotation, °", 150), ("phase", 140)])
     stamps, errors = recording.following()
-    for panel, values, label in ((position, 1e3 * errors[:, 0], "position, mm"),
-                                 (rotation, np.degrees(errors[:, 1]), "rotation, °")):
-        _grid(panel)
-        panel.plot(*thin(recording.seconds(stamps), values), **TRUE)
-        panel.set_ylabel(label, fontsize=9)
-        panel.set_ylim(bottom=0.0)
-    _grid(phase)
-    _states_panel(phase, recording)
-    phase.set_xlabel("time, s", fontsize=9)
-    shade_faults((position, rotation, phase), recording)
-    return svg(figure, "Following error in position and rotation, and phase, over time")
-
-
-def _states_panel(axes, recording):
-    times, states = thin(recording.seconds(recording.progress.stamps), recording.progress.states)
-    axes.step(times, states, where="post", color="black", linewidth=1.2)
-    used = sorted(set(recording.progress.states))
-    axes.set_yticks(used, [judge.STATES[state].lower() for state in used])
-    axes.set_ylim(used[0] - 0.5, used[-1] + 0.5)
-    axes.set_ylabel("phase", fontsize=9)
+    for panel, values, unit in ((panels[0], 1e3 * errors[:, 0], "mm"),
+                                (panels[1], np.degrees(errors[:, 1]), "°")):
+        line = plots.add_line(panel, recording.seconds(stamps), values, **TRUE)
+        plots.values_on_hover(panel, [line], unit)
+        panel.y_range.start = 0.0
+    _states(panels[2], recording)
+    mark_events(panels, recording)
+    return plots.embedded([panels], "Following error in position and rotation, and phase, over time")
 
 
 def target_over_time(recording: Recording, truth: Series, measured: Series, predicted: Series,
@@ -99,127 +81,129 @@ def target_over_time(recording: Recording, truth: Series, measured: Series, pred
 
     truth, measured, predicted: (stamps ns, (n, 3) m) each; `shown` names the axes.
     """
-    figure = Figure(figsize=(9.0, 3.2 + 1.8 * len(shown)), layout="constrained")
-    *panels, posterior, phase = figure.subplots(
-        len(shown) + 2, 1, sharex=True, height_ratios=[1] * len(shown) + [0.8, 0.8])
-    for axis, panel in (("xyz".index(name), panel) for name, panel in zip(shown, panels)):
-        _grid(panel)
-        for (stamps, values), style, label in (
-                (measured, MEASURED, "measured"), (truth, TRUE, "true"),
-                (predicted, PREDICTED, f"predicted {horizon:.2f} s before")):
-            times, column = thin(recording.seconds(stamps), 1e3 * values[:, axis])
-            panel.plot(times, column, label=label, **style)
-        panel.set_ylabel(f"target {'xyz'[axis]}, mm", fontsize=9)
+    panels = time_panels(recording, [
+        *((f"target {name}, mm", 185 if row == 0 else 150) for row, name in enumerate(shown)),
+        ("HMM posterior", 160), ("phase", 140)])
+    posterior, phase = panels[-2:]
+    for name, panel in zip(shown, panels):
+        axis = "xyz".index(name)
+        first = panel is panels[0]
         low, high = np.nanmin(1e3 * truth[1][:, axis]), np.nanmax(1e3 * truth[1][:, axis])
         slack = max(5.0, 0.25 * (high - low))
-        panel.set_ylim(low - slack, high + slack)
-    panels[0].legend(loc="upper right", fontsize=8, ncols=3)
-    _grid(posterior)
+        panel.y_range = plots.library().models.Range1d(float(low - slack), float(high + slack))
+        for add, (stamps, values), style, label in (
+                (plots.add_points, measured, MEASURED, "measured"),
+                (plots.add_line, truth, TRUE, "true"),
+                (plots.add_line, predicted, PREDICTED, f"predicted {horizon:.1f} s before")):
+            line = add(panel, recording.seconds(stamps), 1e3 * values[:, axis],
+                       label if first else "", **style)
+            if style is TRUE:
+                plots.values_on_hover(panel, [line], "mm")
+        if first:
+            plots.legend_above(panel)
     for index, (state, look) in enumerate(zip(judge.EXECUTION, POSTERIORS)):
-        times, probability = thin(recording.seconds(recording.progress.stamps),
-                                  recording.progress.posteriors[:, index])
-        posterior.plot(times, probability, label=judge.STATES[state].lower(), linewidth=1.3,
-                       **look)
-    posterior.set_ylim(-0.05, 1.05)
-    posterior.set_ylabel("HMM posterior", fontsize=9)
-    posterior.legend(loc="center right", fontsize=8)
-    _grid(phase)
-    _states_panel(phase, recording)
-    phase.set_xlabel("time, s", fontsize=9)
-    shade_faults([*panels, posterior, phase], recording)
-    return svg(figure, "Target position, HMM posterior and phase over time")
+        plots.add_line(posterior, recording.seconds(recording.progress.stamps),
+                       recording.progress.posteriors[:, index], judge.STATES[state].lower(),
+                       line_width=1.5, **look)
+    plots.legend_above(posterior)
+    posterior.y_range = plots.library().models.Range1d(-0.05, 1.05)
+    _states(phase, recording)
+    mark_events(panels, recording)
+    return plots.embedded([panels], "Target position, HMM posterior and phase over time")
 
 
 def distances(recording: Recording, stamps: np.ndarray, lateral: np.ndarray, along: np.ndarray,
               contacts: list[Contact]) -> Markup:
     """How far the tag is from where the camera should have it, and what was touched."""
-    figure = Figure(figsize=(9.0, 6.2), layout="constrained")
-    panels = figure.subplots(4, 1, sharex=True, height_ratios=[1, 1, 0.35, 0.7])
-    times, across, error = thin(recording.seconds(stamps), 1e3 * lateral,
-                                1e3 * (along - judge.STAND_OFF))
-    for panel, values, label, sides in (
-            (panels[0], across, "off the axis, mm", [1]),
-            (panels[1], error, "along the axis\nto stand-off, mm", [-1, 1])):
-        _grid(panel)
-        panel.plot(times, values, **TRUE)
+    panels = time_panels(recording, [("off the axis, mm", 180), ("to stand-off, mm", 180)])
+    for panel, values, sides in ((panels[0], 1e3 * lateral, [1]),
+                                 (panels[1], 1e3 * (along - judge.STAND_OFF), [-1, 1])):
+        line = plots.add_line(panel, recording.seconds(stamps), values, **TRUE)
+        plots.values_on_hover(panel, [line], "mm")
         for bound, name in ((judge.REACHED_BOUND, "reached"), (judge.INSPECTED_BOUND, "inspected")):
             for side in sides:
-                panel.axhline(side * 1e3 * bound, **BOUND)
-            panel.annotate(name, (1.0, 1e3 * bound), xycoords=("axes fraction", "data"),
-                           ha="right", va="bottom", fontsize=8, color="0.35")
-        panel.set_ylabel(label, fontsize=9)
-    seen = np.isfinite(recording.detections[:, 0])
-    panels[2].plot(recording.seconds(recording.detection_stamps[seen]), np.ones(seen.sum()), **SEEN)
-    panels[2].set_yticks([1], ["seen"])
-    panels[2].set_ylim(0.5, 1.5)
-    panels[2].set_ylabel("tag", fontsize=9)
-    _grid(panels[3])
+                plots.add_bound(panel, side * 1e3 * bound, name if side > 0 else "")
+    models = plots.library().models
+    bound, error = 1.15e3 * judge.REACHED_BOUND, 1e3 * (along - judge.STAND_OFF)
+    panels[0].y_range = models.Range1d(0.0, float(max(bound, 1.05e3 * np.nanmax(lateral))))
+    panels[1].y_range = models.Range1d(float(min(-bound, 1.05 * np.nanmin(error))),
+                                       float(max(bound, 1.05 * np.nanmax(error))))
     if contacts:
-        panels[3].vlines([recording.seconds(contact.stamp) for contact in contacts], 0.0,
-                         [contact.force for contact in contacts], color=BAR, linewidth=1.5)
-    panels[3].axhline(judge.CONTACT_ISSUE, **BOUND)
-    panels[3].set_yscale("symlog", linthresh=1.0)
-    panels[3].set_ylim(0.0, max([60.0] + [1.2 * contact.force for contact in contacts]))
-    panels[3].axhline(judge.EMERGENCY_STOP, **BOUND)
-    panels[3].set_yticks([0, 1, 10, 50], ["0", "1", "10", "50"])
-    panels[3].set_ylabel("contact, N", fontsize=9)
-    panels[3].set_xlabel("time, s", fontsize=9)
-    shade_faults(panels, recording)
-    return svg(figure, "Distance of the tag from the optical axis and along it, contacts")
+        most = max(60.0, *(1.3 * contact.force for contact in contacts))
+        touched = plots.panel("contact, N", 160, panels[0].x_range, "time, s", y_axis_type="log",
+                              y_range=(0.1, most))
+        panels[1].xaxis.axis_label = None
+        touched.segment([float(recording.seconds(contact.stamp)) for contact in contacts], 0.1,
+                        [float(recording.seconds(contact.stamp)) for contact in contacts],
+                        [max(0.1, contact.force) for contact in contacts], color=TAG, line_width=2)
+        plots.add_bound(touched, judge.CONTACT_ISSUE, "an issue")
+        plots.add_bound(touched, judge.EMERGENCY_STOP, "a failure")
+        panels.append(touched)
+    mark_events(panels, recording)
+    return plots.embedded([panels], "Distance of the tag from the optical axis and along it, contacts")
 
 
-def _equal_axes(axes, points):
-    low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
-    centre, half = 0.5 * (low + high), 0.55 * np.max(high - low)
-    axes.set_xlim(centre[0] - half, centre[0] + half)
-    axes.set_ylim(centre[1] - half, centre[1] + half)
-    axes.set_zlim(centre[2] - half, centre[2] + half)
-    axes.set_box_aspect((1, 1, 1))
+def compared_distances(trials: list[tuple[str, Recording]]) -> Markup:
+    """The tag's distance off the optical axis in up to three trials."""
+    longest = max((data for _, data in trials), key=lambda data: len(data.ticks))
+    panel, = time_panels(longest, [("off the axis, mm", 300)])
+    most = 1.15e3 * judge.REACHED_BOUND
+    for (name, data), look in zip(trials, COMPARED):
+        stamps, lateral, _ = judge.distances(data)
+        line = plots.add_line(panel, data.seconds(stamps), 1e3 * lateral, name, **look)
+        plots.values_on_hover(panel, [line], "mm")
+        most = max(most, 1.05e3 * float(np.nanmax(lateral)))
+        for event in world.events(data):
+            plots.shade(panel, float(data.seconds(event.begin)), float(data.seconds(event.end)),
+                        INJECTED if event.injected else WORLD)
+    panel.y_range = plots.library().models.Range1d(0.0, most)
+    for bound, name in ((judge.REACHED_BOUND, "reached"), (judge.INSPECTED_BOUND, "inspected")):
+        plots.add_bound(panel, 1e3 * bound, name)
+    plots.legend_above(panel, 1)
+    return plots.embedded([[panel]], "Distance of the tag from the optical axis in several trials")
+
+
+def _view(across, above, title):
+    panel = plots.panel(above, 330, None, across, match_aspect=True, title=title,
+                        tools="box_zoom,pan,wheel_zoom,reset,save")
+    panel.title.text_font_size = plots.SIZE
+    return panel
 
 
 def paths_in_space(executed: np.ndarray, demonstrated: np.ndarray, planned: np.ndarray,
                    target: np.ndarray) -> Markup:
-    """Hand paths (n, 3) in the arm's base frame; target (3,)."""
-    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
-    axes = figure.add_subplot(projection="3d")
-    for values, style, label in ((demonstrated, DEMONSTRATED, "demonstrated"),
-                                 (planned, PLANNED, "last plan"), (executed, TRUE, "executed")):
-        if len(values):
-            axes.plot(*values.T, label=label, **style)
-    axes.plot(*executed[:1].T, marker="o", color="black", markersize=4, linestyle="none",
-              label="start")
-    axes.plot(*target[:, None], marker="s", color="#D55E00", markersize=7, linestyle="none",
-              label="tag")
-    _equal_axes(axes, np.vstack([executed, demonstrated, target[None, :]]))
-    for setter, name in ((axes.set_xlabel, "x, m"), (axes.set_ylabel, "y, m"),
-                         (axes.set_zlabel, "z, m")):
-        setter(name, fontsize=8)
-    axes.tick_params(labelsize=7)
-    axes.view_init(elev=22, azim=-120)
-    axes.legend(fontsize=8, loc="upper left")
-    return svg(figure, "Path of the hand in the arm's base frame: demonstrated, planned, executed")
+    """Hand paths (n, 3) in the arm's base frame from the side and from above; target (3,)."""
+    columns = []
+    for axis, title, above in ((2, "from the side", "z, m"), (1, "from above", "y, m")):
+        panel = _view("x, m", above, title)
+        for values, style, label in ((demonstrated, DEMONSTRATED, "demonstrated"),
+                                     (planned, PLANNED, "last plan"), (executed, TRUE, "executed")):
+            if len(values):
+                plots.add_line(panel, values[:, 0], values[:, axis], label, **style)
+        plots.add_points(panel, executed[:1, 0], executed[:1, axis], "start", color="black", size=7)
+        plots.add_points(panel, target[:1], target[axis:axis + 1], "tag", color=TAG, size=9,
+                         marker="square")
+        plots.legend_above(panel)
+        columns.append([panel])
+    return plots.embedded(columns, "Path of the hand in the arm's base frame from the side and from "
+                          "above: demonstrated, planned, executed")
 
 
-def paths_before_box(executed: np.ndarray, demonstrated: np.ndarray) -> Markup:
-    """Hand paths (n, 3) in the tag's frame (x right, y up, z toward the viewer), with the box."""
-    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
-    side, top = figure.subplots(1, 2)
+def paths_before_box(paths: list[tuple[str, np.ndarray, dict[str, Any]]]) -> Markup:
+    """Hand paths [(label, (n, 3) m, look)] in the tag's frame (x right, y up, z toward the viewer)
+    with the walls of the box."""
+    columns = []
     half = 0.5 * BOX_SIDE
-    for axes, column, centre, label in ((side, 1, BOX_ABOVE_TAG, "above the tag, m"),
-                                        (top, 0, 0.0, "right of the tag, m")):
-        _grid(axes)
-        axes.plot([BOX_DEPTH, 0, 0, BOX_DEPTH],
-                  [centre - half, centre - half, centre + half, centre + half],
-                  color="0.35", linewidth=2.5, solid_joinstyle="miter")
-        axes.plot([0.004, 0.004], [-0.05, 0.05], color="#D55E00", linewidth=4,
-                  solid_capstyle="butt")
-        axes.plot(demonstrated[:, 2], demonstrated[:, column], label="demonstrated", **DEMONSTRATED)
-        axes.plot(*thin(executed[:, 2], executed[:, column]), label="executed", **TRUE)
-        axes.invert_xaxis()
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlabel("in front of the tag, m", fontsize=9)
-        axes.set_ylabel(label, fontsize=9)
-    side.legend(fontsize=8, loc="best")
-    side.set_title("from the side", fontsize=9)
-    top.set_title("from above", fontsize=9)
-    return svg(figure, "Path of the hand seen from the tag, with the walls of the box")
+    for column, centre, title, label in ((1, BOX_ABOVE_TAG, "from the side", "above the tag, m"),
+                                         (0, 0.0, "from above", "right of the tag, m")):
+        panel = _view("in front of the tag, m", label, title)
+        panel.x_range.flipped = True
+        panel.line([BOX_DEPTH, 0, 0, BOX_DEPTH],
+                   [centre - half, centre - half, centre + half, centre + half], color="#707070",
+                   line_width=3)
+        panel.line([0.004, 0.004], [-0.05, 0.05], color=TAG, line_width=5)
+        for name, values, look in paths:
+            plots.add_line(panel, values[:, 2], values[:, column], name, **look)
+        plots.legend_above(panel)
+        columns.append([panel])
+    return plots.embedded(columns, "Path of the hand seen from the tag, with the walls of the box")

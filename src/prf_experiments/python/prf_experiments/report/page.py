@@ -4,7 +4,7 @@
 Every value is escaped by the templates unless it is Markup: a figure, or what a template made.
 """
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,6 +41,26 @@ def render(template: str, **values: Any) -> Markup:
     return Markup(_TEMPLATES.get_template(template).render(**values))
 
 
-def table(rows: Iterable[Iterable[Any]], header: Sequence[str] | None = None) -> Markup:
-    """A table; numbers stand at the right."""
-    return render("table.html", rows=rows, header=header)
+def whole(template: str, **values: Any) -> Markup:
+    """A whole page, with the library that draws its plots when it has any."""
+    text = render(template, **values)
+    if "data-plot=" not in text:
+        return text
+    from prf_experiments.report import plots  # takes its time
+    scripts = render("plots.html", library=plots.script())
+    return Markup(str(text).replace("</body>", f"{scripts}</body>"))
+
+
+def table(rows: Iterable[Iterable[Any]], header: Sequence[str] | None = None,
+          kind: str = "") -> Markup:
+    """A table; numbers stand at the right. `kind` is a class of the style sheet."""
+    return render("table.html", rows=rows, header=header, kind=kind)
+
+
+def plotted(draw: Callable[[], Markup]) -> Markup:
+    """What `draw` gives, or why it cannot."""
+    from prf_experiments.report import plots
+    try:
+        return draw()
+    except plots.Missing as error:
+        return Markup("<p>Not drawn: {}.</p>").format(str(error))

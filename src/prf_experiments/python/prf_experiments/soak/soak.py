@@ -8,13 +8,12 @@ import time
 from collections import Counter
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from prf_experiments import files
 from prf_experiments.faults import catalogue, wiring
 from prf_experiments.judge import invariants, judge
 from prf_experiments.record import recording, topics
-from prf_experiments.report import figures, page
+from prf_experiments.report import charts, page
 from prf_experiments.report.page import Section
 from prf_experiments.run import connections, processes, session, trial
 from prf_experiments.soak import measures, schedule
@@ -154,29 +153,22 @@ def text(summary: dict) -> str:
 
 
 def memory_figure(samples: dict) -> page.Markup:
-    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
-    axes = figure.subplots()
-    looks = ["-", (0, (5, 2)), (0, (1, 1.5)), (0, (6, 2, 1, 2))]
-    for row, (node, found) in enumerate(sorted(samples.items())):
-        axes.plot([entry[0] / 60.0 for entry in found], [entry[1] for entry in found],
-                  label=node, linestyle=looks[row % 4], color=str(0.15 * (row // 4)), linewidth=1.2)
-    axes.set_xlabel("simulated time, min", fontsize=9)
-    axes.set_ylabel("resident memory, MB", fontsize=9)
-    axes.set_ylim(bottom=0.0)
-    axes.grid(True, color="0.88", linewidth=0.6)
-    axes.legend(fontsize=7, ncols=4, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    return figures.svg(figure, "Resident memory of each node over time")
+    return charts.lines({node: ([entry[0] / 60.0 for entry in found], [entry[1] for entry in found])
+                         for node, found in sorted(samples.items())},
+                        "simulated time, min", "resident memory, MB",
+                        "Resident memory of each node over time")
 
 
 def write(folder: str, command: str, summary: dict, watch: Watch) -> None:
     faults = [(row["fault"], row["at_s"], "no execution" if row["idle"] else row["recovered_s"])
               for row in summary["recoveries"]]
-    sections = [Section("Memory", "Every node's resident memory.", [memory_figure(watch.samples)]),
+    sections = [Section("Memory", "Every node's resident memory.",
+                        [page.plotted(lambda: memory_figure(watch.samples))]),
                 Section("Faults", "Recovered after so many s; –: not in time.",
                         [page.table(faults, ("fault", "at, s", "recovered after, s"))])]
     files.write_json(os.path.join(folder, "soak.json"), {"command": command, **summary})
-    files.write(os.path.join(folder, "index.html"), page.render(
-        "study.html", title="Soak", command=command, text=text(summary), sections=sections))
+    files.write(os.path.join(folder, "index.html"), page.whole(
+        "study.html", title="Soak", command=command, conclusion="", text=text(summary), sections=sections))
 
 
 MEANING = ("Heavy stepping without a pause: executions begun again and again by the action, faults at random. Memory: "

@@ -10,4 +10,4 @@ AXES = {"predictor": ["periodic", "ukf", "constant_velocity", "hold"],
 FIXED = {"motion": "heavy", "gait": "step"}
 
 STUDY = Study("Ablation", table.MEANING, AXES, FIXED, partial(table.summarise, axes=tuple(AXES)), table.text,
-              table.sections)
+              table.sections, conclude=table.conclusion)

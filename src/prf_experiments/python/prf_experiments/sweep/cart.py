@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The box is pushed aside while the skill is executed: demonstration and adapted path, and the
 error at the end."""
-from prf_experiments.report import report
+from prf_experiments.judge import target
+from prf_experiments.report import figures, page, pictures, report
 from prf_experiments.report.page import Section
 from prf_experiments.run import trial
 from prf_experiments.sweep import statistics
@@ -36,25 +37,52 @@ def text(summary: dict) -> str:
                       for found in summary["cells"]])
 
 
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    def told(found):
+        tests = found["tests"]
+        off = found["final_lateral_mm"]["mean"]
+        return (f"{tests.count('S')} of {len(tests)} trials succeed"
+                + ("" if off is None else f", the tag is {off:.1f} mm off the axis at the end"))
+    by_framework = {found["framework"]: told(found) for found in summary["cells"]}
+    parts = [f"{words} the framework {by_framework[value]}" for value, words in
+             ((True, "with"), (False, "without")) if value in by_framework]
+    return "When the box is pushed aside, " + "; ".join(parts) + "."
+
+
 def sections(_summary: dict, results: list[dict], folder: str) -> list[Section]:
-    """Paths of each cell's first trial."""
-    found = []
+    """Each cell's first trial, all in one figure."""
+    tried, missing = [], []
     for framework in values(results, "framework"):
         result = cell(results, framework=framework)[0]
-        title = (f"Framework {shown('framework', framework)}, seed {result['arguments']['seed']}: "
-                 + result["verdict"])
+        name = (f"framework {shown('framework', framework)}, seed {result['arguments']['seed']}: "
+                + result["verdict"])
         bag, data = read_bag(folder, result)
         if data is None:
-            found.append(Section(title, NO_BAG))
-            continue
-        skill = demonstration.read(trial.skill(result["arguments"]))
-        found += [Section(f"{title}. {name}", words, [drawing])
-                  for name, words, drawing in report.draw(bag, data, skill)[1:]]
-    return found
+            missing.append(Section(name[:1].upper() + name[1:], NO_BAG))
+        else:
+            tried.append((name, bag, data, result))
+    if not tried:
+        return missing
+    skill = demonstration.read(trial.skill(tried[0][3]["arguments"]))
+    scene = pictures.scene_of(tried[0][1], tried[0][2])
+    return [
+        *([Section("Scene", body=[scene])] if scene else []),
+        Section("Distance to the target", "How far the tag is off the camera's optical axis. Orange: the "
+                "cart is pushed.",
+                [page.plotted(lambda: figures.compared_distances(
+                    [(name, data) for name, _, data, _ in tried]))]),
+        Section("Path before the box", "Of the hand, seen from the tag.",
+                [page.plotted(lambda: figures.paths_before_box([
+                    ("demonstrated", target.relative_to(skill.target, skill.poses),
+                     figures.DEMONSTRATED),
+                    *((name, report.before_tag(data), look) for (name, _, data, _), look in
+                      zip(tried, figures.COMPARED))]))]), *missing]
 
 
 MEANING = (
     "The box is pushed aside by 0.10 to 0.15 m during the execution. Distances in mm, mean ± standard "
     "deviation over the\nseeds, with the framework and without (`framework:=false`).")
 
-STUDY = Study("Moving box", MEANING, AXES, FIXED, summarise, text, sections, keep_bags="all")
+STUDY = Study("Moving box", MEANING, AXES, FIXED, summarise, text, sections, keep_bags="all",
+              conclude=conclusion)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Planners side by side: how far the tag is from the optical axis, paired by seed."""
-from matplotlib.figure import Figure
-
-from prf_experiments.report import figures, page
+from prf_experiments.report import charts, page, plots
 from prf_experiments.report.page import Markup, Section
 from prf_experiments.sweep import statistics
 from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
@@ -14,8 +12,6 @@ MEASURES = {"execution_lateral_mean_mm": "execution, mean",
             "execution_lateral_deviation_mm": "execution, sd",
             "tracking_lateral_mean_mm": "tracking, mean",
             "tracking_lateral_deviation_mm": "tracking, sd"}
-SHADES = ["0.25", "0.55", "0.8", "1.0"]
-HATCHES = ["", "///", "...", "xxx"]
 
 
 def measured(results: list[dict], name: str) -> list:
@@ -80,27 +76,16 @@ def text(summary: dict) -> str:
             + ("\n" + aligned(lines) if len(lines) > 1 else ""))
 
 
-def distance_figure(summary: dict, name: str) -> Markup:
-    """Bars of a measure with its spread over the seeds, told apart by lightness and hatching."""
+def distance_figure(summary: dict) -> Markup:
+    """Bars of each measure with its spread over the seeds."""
     motions = list(dict.fromkeys(found["motion"] for found in summary["cells"]))
     planners = list(dict.fromkeys(found["planner"] for found in summary["cells"]))
-    figure = Figure(figsize=(4.6, 3.3), layout="constrained")
-    axes = figure.subplots()
-    width = 0.8 / len(planners)
-    for column, planner in enumerate(planners):
-        found = [item for item in summary["cells"] if item["planner"] == planner]
-        axes.bar([motions.index(item["motion"]) + (column - 0.5 * (len(planners) - 1)) * width
-                  for item in found], [item[name]["mean"] or 0.0 for item in found], width,
-                 yerr=[item[name]["deviation"] or 0.0 for item in found], label=planner,
-                 color=SHADES[column % 4], hatch=HATCHES[column % 4], edgecolor="black",
-                 linewidth=0.8, error_kw={"linewidth": 0.9, "capsize": 2.5})
-    axes.set_xticks(range(len(motions)), motions)
-    axes.set_ylim(bottom=0.0)
-    axes.set_ylabel("off the axis, mm", fontsize=9)
-    axes.tick_params(labelsize=8)
-    axes.legend(fontsize=7, ncols=4, loc="lower left", bbox_to_anchor=(0.0, 1.0),
-                title=MEASURES[name], title_fontsize=9, columnspacing=1.0)
-    return figures.svg(figure, f"Distance from the optical axis: {MEASURES[name]}")
+    panels = [charts.bars(motions, {
+        planner: {item["motion"]: (item[name]["mean"] or 0.0, item[name]["deviation"] or 0.0)
+                  for item in summary["cells"] if item["planner"] == planner}
+        for planner in planners}, "off the axis, mm", title) for name, title in MEASURES.items()]
+    return plots.embedded([[panel] for panel in panels],
+                          "Distance from the optical axis: " + ", ".join(MEASURES.values()))
 
 
 def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
@@ -108,7 +93,7 @@ def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
                verdict_links(cell(results, motion=motion, planner=planner)))
               for motion in values(results, "motion") for planner in values(results, "planner")]
     return [Section("Distances", "Bars: mean over the seeds; whiskers: standard deviation.",
-                    [distance_figure(summary, name) for name in MEASURES]),
+                    [page.plotted(lambda: distance_figure(summary))]),
             Section("Each test", "Every letter leads to its trial.",
                     [page.table(linked, ("motion", "planner", "tests"))])]
 

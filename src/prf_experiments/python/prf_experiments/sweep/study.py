@@ -32,6 +32,7 @@ class Study:
     seeds: int = FIRST_SEEDS
     keep_bags: str = "failed"
     may_be_invalid: Callable = lambda arguments: False  # where INVALID is what should come out
+    conclude: Callable = lambda summary: ""  # summary -> one sentence for the page
 
 
 def trials(study: Study, options: argparse.Namespace) -> list[dict]:
@@ -86,6 +87,15 @@ def read_bag(folder: str, result: dict) -> tuple[str, recording.Recording | None
         return bag, None
 
 
+def first_bag(folder: str, results: list[dict]) -> tuple[str, recording.Recording | None]:
+    """(path, recording) of the first trial whose bag was kept, as `read_bag`."""
+    for result in results:
+        bag, data = read_bag(folder, result)
+        if data is not None:
+            return bag, data
+    return "", None
+
+
 def broken(result: dict) -> list[str]:
     """The invariants that did not hold in a trial."""
     return result.get("invariants", {}).get("violations", [])
@@ -116,14 +126,16 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
         Section("Trials", body=[page.table(
             [(verdict_link(result), trial_arguments.name(result["arguments"]), result["inspected"],
               "; ".join([result["reason"], *("INVARIANT BROKEN: " + text
-                                             for text in broken(result))]))
+                                             for text in broken(result))]),
+              result.get("cause", ""))
              for result in results],
-            ("verdict", "trial", "inspected", "reason"))]),
+            ("verdict", "trial", "inspected", "reason", "why"))]),
         Section("Arguments that all trials share, and versions", body=[page.table(
             [*((name, args.show(value)) for name, value in shared.items()), *versions.items(),
              ("disk, MB", took / sweep.MEGABYTE)])])]
-    files.write(path, page.render("study.html", title=study.title, command=command,
-                                  text=study.text(summary), sections=sections))
+    files.write(path, page.whole("study.html", title=study.title, command=command,
+                                 conclusion=study.conclude(summary), text=study.text(summary),
+                                 sections=sections))
 
 
 def reproducing(options: argparse.Namespace, named: Sequence[str]) -> str:

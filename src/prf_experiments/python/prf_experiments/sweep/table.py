@@ -7,23 +7,24 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
-
-from prf_experiments.report import figures, page
+from prf_experiments.report import charts, page, pictures
 from prf_experiments.report.page import Markup, Section
 from prf_experiments.sweep import statistics
-from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
+from prf_experiments.sweep.study import (
+    Study,
+    cell,
+    first_bag,
+    letters,
+    values,
+    verdict_links,
+)
 
 AXES = {"motion": ["none", "light", "heavy"], "gait": ["stand", "step"],
         "framework": [False, True]}
 ORDER = ("framework", "motion", "gait")
 VERDICTS = ("S", "P", "F", "INVALID")
-SHADES = {"S": ("0.82", ""), "P": ("white", "////"), "F": ("0.1", ""), "INVALID": ("white", "xx")}
 SMOOTHNESS = {"jerk, rad/s³": "joint_jerk_rms_rad_s3", "path / way": "approach_path_ratio",
               "shake, mm": "approach_shake_rms_mm"}  # figures of a verdict, by heading
-MARK = {"color": "black", "marker": "|", "markersize": 12, "linestyle": "none",
-        "markeredgewidth": 1.6, "alpha": 0.8}
 
 
 def cells(results: list[dict], axes: Sequence[str]) -> Iterator[tuple[dict, list[dict]]]:
@@ -105,61 +106,74 @@ def text(summary: dict) -> str:
     return aligned(rows)
 
 
-def labels_of(summary: dict) -> list[str]:
-    return [", ".join(shown(name, item[name]) for name in summary["axes"])
-            for item in summary["cells"]]
+def side_by_side(summary: dict) -> list[dict]:
+    """The cells in an order in which those that differ in the framework alone are neighbours."""
+    others = [name for name in summary["axes"] if name != "framework"]
+    places = {name: list(dict.fromkeys(item[name] for item in summary["cells"])) for name in others}
+    return sorted(summary["cells"],
+                  key=lambda item: [places[name].index(item[name]) for name in others])
+
+
+def label_of(item: dict, axes: Sequence[str]) -> str:
+    words = [shown(name, item[name]) for name in axes if name != "framework"]
+    return ", ".join(words + [shown("framework", item["framework"])] * ("framework" in axes))
 
 
 def distance_figure(summary: dict, results: list[dict]) -> Markup:
     """One mark for each trial: how far the tag was off the axis while tracking."""
-    labels = labels_of(summary)
-    figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(labels)), layout="constrained")
-    axes = figure.subplots()
-    for line, (_, found) in enumerate(cells(results, summary["axes"])):
-        off = [result["figures"].get("tracking_lateral_mean_mm") for result in found]
-        off = [value for value in off if value is not None]
-        axes.plot(off, [line] * len(off), **MARK)
-    axes.set_yticks(range(len(labels)), labels)
-    axes.set_ylim(len(labels) - 0.5, -0.5)
-    axes.set_xlim(left=0.0)
-    axes.grid(True, color="0.88", linewidth=0.6)
-    axes.set_xlabel("mean distance of the tag's centre from the optical axis while tracking, mm",
-                    fontsize=9)
-    axes.tick_params(labelsize=8)
-    return figures.svg(figure, "Distance of the tag from the optical axis in each trial")
+    found = side_by_side(summary)
+    measured = [[result["figures"].get("tracking_lateral_mean_mm")
+                 for result in cell(results, **{name: item[name] for name in summary["axes"]})]
+                for item in found]
+    return charts.marks([label_of(item, summary["axes"]) for item in found],
+                        [[value for value in row if value is not None] for row in measured],
+                        "mean distance off the optical axis while tracking, mm",
+                        "Distance of the tag from the optical axis in each trial")
 
 
 def counts_figure(summary: dict) -> Markup:
-    """Stacked counts of each cell; told apart by lightness and hatching."""
-    found, labels = summary["cells"], labels_of(summary)
-    figure = Figure(figsize=(9.0, 0.9 + 0.32 * len(found)), layout="constrained")
-    axes = figure.subplots()
-    left = [0] * len(found)
-    for verdict in VERDICTS:
-        counts = [item["counts"][verdict] for item in found]
-        shade, hatch = SHADES[verdict]
-        axes.barh(labels, counts, left=left, color=shade, hatch=hatch, edgecolor="black",
-                  linewidth=0.8, label=verdict)
-        left = [before + count for before, count in zip(left, counts)]
-    axes.invert_yaxis()
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set_xlabel("trials", fontsize=9)
-    axes.tick_params(labelsize=8)
-    axes.legend(ncols=4, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    return figures.svg(figure, "Verdicts of each cell: success, partial success, failure, invalid")
+    found = side_by_side(summary)
+    return charts.stacked_counts(
+        [label_of(item, summary["axes"]) for item in found], [item["counts"] for item in found],
+        "Verdicts of each cell: success, partial success, failure, invalid")
 
 
-def sections(summary: dict, results: list[dict], _folder: str) -> list[Section]:
+def successes(found: list[dict]) -> str:
+    """"S in 17 of 18 trials (95 %: 74–99 %)" of some cells."""
+    count = sum(item["counts"]["S"] for item in found)
+    valid = sum(sum(item["counts"].values()) - item["counts"]["INVALID"] for item in found)
+    if not valid:
+        return "no valid trial"
+    low, high = statistics.wilson(count, valid)
+    return f"S in {count} of {valid} trials (95 %: {100 * low:.0f} to {100 * high:.0f} %)"
+
+
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    if "framework" not in summary["axes"]:
+        return f"In all: {successes(summary['cells'])}."
+    parts = [(words, [item for item in summary["cells"] if item["framework"] is value])
+             for value, words in ((True, "with the framework"), (False, "without it"))]
+    told = "; ".join(f"{words} {successes(found)}" for words, found in parts if found)
+    return told[:1].upper() + told[1:] + "."
+
+
+def sections(summary: dict, results: list[dict], folder: str) -> list[Section]:
     axes = summary["axes"]
-    linked = [(*(shown(name, chosen[name]) for name in axes),
-               verdict_links(found), percent(numbers["success"]), percent(numbers["inspected"]))
+    linked = [(*(shown(name, chosen[name]) for name in axes), verdict_links(found),
+               percent(numbers["success"]), percent(numbers["inspected"]),
+               number(numbers["tracking_lateral_mm"]["mean"]), numbers["largest_contact_n"],
+               *(number(numbers["smoothness"][name]["mean"]) for name in SMOOTHNESS))
               for (chosen, found), numbers in zip(cells(results, axes), summary["cells"])]
+    scene = pictures.scene_of(*first_bag(folder, results))
     return [
         Section("Each test", "Every letter leads to its trial. " + MEANING,
-                [page.table(linked,
-                            (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)"))]),
-        Section("Counts", body=[counts_figure(summary)]),
-        Section("Distances", body=[distance_figure(summary, results)])]
+                [page.table(linked, (*axes, "tests", "success, % (95 %)", "inspected, % (95 %)",
+                                     "off axis, mm", "contact, N", *SMOOTHNESS))]),
+        *([Section("Scene", body=[scene])] if scene else []),
+        Section("Counts", "Framework on and off side by side." if "framework" in axes else "",
+                [page.plotted(lambda: counts_figure(summary))]),
+        Section("Distances", body=[page.plotted(lambda: distance_figure(summary, results))])]
 
 
 MEANING = (
@@ -169,4 +183,4 @@ MEANING = (
     "Jerk: rms of the commanded joints. On the last 0.2 m, seen from\nthe tag: path of the hand over "
     "its net way, and its shake above 1.5 Hz, rms.")
 
-STUDY = Study("Trials", MEANING, AXES, {}, summarise, text, sections)
+STUDY = Study("Trials", MEANING, AXES, {}, summarise, text, sections, conclude=conclusion)

@@ -2,8 +2,10 @@
 import unittest
 
 import jinja2
-from prf_experiments.report import page
+from prf_experiments.report import page, plots
 from prf_experiments.report.page import Markup, Section
+
+from prf_experiments import python_packages
 
 
 class Page(unittest.TestCase):
@@ -15,11 +17,25 @@ class Page(unittest.TestCase):
                       "<td class=\"number\">7</td><td>a &amp; b</td><td><b>c</b></td></tr>", text)
 
     def test_everything_is_escaped_that_is_not_markup(self):
-        text = page.render("study.html", title="<t>", command="<c>", text="<x>", sections=[
-            Section("<s>", "<p>", [Markup("<hr>")])])
-        for word in ("t", "c", "x", "s", "p"):
+        text = page.render("study.html", title="<t>", command="<c>", text="<x>", conclusion="<o>",
+                           sections=[Section("<s>", "<p>", [Markup("<hr>")])])
+        for word in ("t", "c", "x", "o", "s", "p"):
             self.assertIn(f"&lt;{word}&gt;", text)
         self.assertIn("<hr>", text)
+
+    def test_a_page_brings_the_library_of_its_plots_once_and_only_then(self):
+        named = {"title": "t", "command": "", "text": "", "conclusion": ""}
+        plain = page.whole("study.html", **named, sections=[])
+        self.assertNotIn("plot-library", plain)
+        plot = Markup('<div data-plot="x"></div>')
+        drawn = page.whole("study.html", **named, sections=[Section("s", body=[plot, plot])])
+        self.assertEqual(drawn.count('id="plot-library"'), 1)
+        self.assertTrue(drawn.rstrip().endswith("</body></html>"))
+
+    def test_a_plot_without_its_library_says_what_to_install(self):
+        def draw():
+            raise plots.Missing("No module named 'bokeh'; " + python_packages.how_to_get("bokeh"))
+        self.assertIn("./run_tests installs", page.plotted(draw))
 
     def test_a_value_that_a_template_needs_must_be_given(self):
         with self.assertRaises(jinja2.UndefinedError):

@@ -10,9 +10,9 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
-from prf_experiments.judge import judge
+from prf_experiments.judge import invariants, judge, reaction
 from prf_experiments.record import recording
-from prf_experiments.report import page, pictures, report
+from prf_experiments.report import measures, page, pictures, report
 from prf_experiments.teach import demonstration
 
 from prf_experiments import geometry
@@ -53,7 +53,8 @@ class Report(unittest.TestCase):
             synthetic.write_bag(bag, data)
             read = recording.read(bag)
             content = {**(verdict or judge.judge(read)).as_json(), "command": "run <this> & that",
-                       "arguments": {"seed": 1}, "versions": {"python": "3"}, "wall_time_s": 4.2}
+                       "arguments": {"seed": 1},
+                       "cause": "The cart <moved>.", "versions": {"python": "3"}, "wall_time_s": 4.2}
             if brief:
                 report.write_brief(out, bag, read, content)
             else:
@@ -63,7 +64,7 @@ class Report(unittest.TestCase):
 
     def test_in_brief_has_words_and_numbers_and_says_how_it_is_drawn(self):
         text = self.write(synthetic.make_recording(3.0), brief=True)
-        self.assertEqual((text.count("<svg"), text.count("<img")), (0, 0))
+        self.assertEqual((text.count("data-plot="), text.count("<img")), (0, 0))
         for part in ("run &lt;this&gt; &amp; that", "Timeline", "Figures of merit", "Not drawn"):
             self.assertIn(part, text)
 
@@ -78,7 +79,7 @@ class Report(unittest.TestCase):
         data.contacts = [recording.Contact(int(data.ticks[150]), ("box_back", "camera_link"), 2.5)]
         text = self.write(data)
         self.assert_sound(text)
-        self.assertEqual(len(re.findall("<svg", text)), 5)
+        self.assertEqual(len(re.findall('<div class="plots"', text)), 5)
         self.assertIn("run &lt;this&gt; &amp; that", text)
         self.assertIn("partial success", text)
         self.assertIn("box_back | camera_link", text)
@@ -106,6 +107,31 @@ class Report(unittest.TestCase):
         self.assert_sound(text)
         self.assertIn("<h2>Scene</h2>\n<p>a picture</p>", text)
         self.assertIn("decision: {lead: &lt;0.02&gt;}", text)
+
+    def test_says_what_came_out_why_and_what_it_means(self):
+        text = re.sub("<[^>]*>", "", self.write(synthetic.make_recording(4.0), brief=True))
+        for part in ("Inspected: within 40 mm for 2.0 s by 2.00 s.", "Why The cart &lt;moved&gt;.",
+                     "tag off the optical axis, at the end", "Reached, with an issue"):
+            self.assertIn(part, text)
+        self.assertNotIn("final_lateral_mm", text)
+
+    def test_every_figure_of_the_judge_has_words_and_a_unit(self):
+        data = synthetic.make_recording(4.0)
+        content = {"figures": judge.judge(data).figures, "invariants": invariants.check(data).figures,
+                   "reaction": reaction.times(data)}
+        without = [name for group in content.values() for name in group
+                   if name not in measures.WORDS and name not in measures.TOLD_ELSEWHERE]
+        self.assertEqual(without, [])
+        self.assertIn(("images in which the tag was detected", "100", "%"), measures.rows(content))
+
+    def test_in_a_sweep_leads_back_to_the_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for place, back in (("trials/some.part", True), ("alone", False)):
+                os.makedirs(os.path.join(folder, place))
+                out = os.path.join(folder, place, "report.html")
+                report.write_brief(out, "trial.bag", None, judge.invalid("cut").as_json())
+                with open(out, encoding="utf-8") as stream:
+                    self.assertEqual('href="../../index.html"' in stream.read(), back)
 
     def test_key_frames_are_taken_at_the_moments_that_matter(self):
         data = synthetic.make_recording(4.0)
