@@ -11,6 +11,7 @@ void SkillPlannerParams::validate() const {
   prf_core::require(!files.demonstration.empty(), "demonstration", "''", "the name of a CSV file");
   prf_core::require(!files.frame.empty(), "frame", "''", "the name of a frame");
   files.limits.validate();
+  prf_core::require_between("tick_period", tick_period, 0.001, 0.1, "s");
   prf_core::require_between("late_after", late_after, 1e-6, 10.0, "s");
 }
 
@@ -21,6 +22,7 @@ SkillPlannerParams load_params(const ros::NodeHandle& private_node) {
   params.files.folders = values.text("demonstration_folders");
   params.files.limits.reach = values.number("reach");
   params.files.frame = values.text("frame");
+  params.tick_period = values.number("tick_period");
   params.late_after = values.number("late_after");
   SessionParams& session = params.session;
   session.planner = values.text("planner");

@@ -11,6 +11,7 @@ namespace elte_planner {
 struct SkillPlannerParams {
   SkillFiles files;
   double late_after = 0.0;  // s, a solve that takes longer is late; within [1e-6, 10]
+  double tick_period = 0.0;  // s, between two execution/progress; within [0.001, 0.1]
   SessionParams session;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound

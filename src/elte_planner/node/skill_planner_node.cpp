@@ -35,7 +35,8 @@ SkillPlannerNode::SkillPlannerNode(const SkillPlannerParams& params)
       100, [this](const prf_msgs::TargetForecast::ConstPtr& message) { on_forecast(*message); });
   inputs_.subscribe<prf_msgs::ExecutionProgress>(
       {topics::kExecutionProgress,
-       "prf_msgs/ExecutionProgress in " + params.files.frame + " from decision", 100.0},
+       "prf_msgs/ExecutionProgress in " + params.files.frame + " from decision",
+       1.0 / params.tick_period},
       1000,
       [this](const prf_msgs::ExecutionProgress::ConstPtr& message) { on_progress(*message); });
   // Advertised last: whoever sees this publisher may send, both topics are subscribed.

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                                   " is missing, must hold the URDF of the robot");
     }
     const platform_sim::SimParams params =
-        platform_sim::load_params(prf_ros::PrivateParameters(private_node));
+        platform_sim::load_params(prf_ros::PrivateParameters(private_node), node);
     end_reason = Simulation(node, private_node, params, urdf).run();
   });
   if (refused != 0) return refused;

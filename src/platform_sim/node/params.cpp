@@ -20,6 +20,24 @@ std::string one_of(const std::string& name, const std::string& value,
   return value;
 }
 
+DriverModel read_driver_model(prf_ros::PrivateParameters values) {
+  const std::string takes = one_of("driver_model/takes", values.text("takes"),
+                                   {"velocities", "positions", "trajectories"});
+  DriverModel model;
+  model.takes = takes == "velocities"  ? DriverModel::Takes::kVelocities
+                : takes == "positions" ? DriverModel::Takes::kPositions
+                                       : DriverModel::Takes::kTrajectories;
+  model.latency = values.number("latency");
+  model.take_period = values.number("take_period");
+  const int queue = values.integer("queue");
+  prf_core::require(queue >= 1, "driver_model/queue", queue, ">= 1");
+  model.queue = static_cast<std::size_t>(queue);
+  model.lifetime = values.number("lifetime");
+  model.servo_gain = values.number("servo_gain");
+  values.refuse_unknown();
+  return model;
+}
+
 camera_sim::HandCameraParams read_camera(prf_ros::PrivateParameters& values) {
   camera_sim::HandCameraParams camera;
   const std::vector<double> distortion = values.numbers("distortion", 5);
@@ -56,7 +74,7 @@ void SimParams::validate() const {
   world.validate();
 }
 
-SimParams load_params(prf_ros::PrivateParameters values) {
+SimParams load_params(prf_ros::PrivateParameters values, const ros::NodeHandle& node) {
   SimParams result;
   result.world.motion = values.text("motion");
   result.world.body_motion = values.text("body_motion");
@@ -73,6 +91,10 @@ SimParams load_params(prf_ros::PrivateParameters values) {
       one_of("arm_mode", values.text("arm_mode"), {"servo", "compliant"}) == "servo"
           ? ArmMode::kServo
           : ArmMode::kCompliant;
+  if (values.flag("with_driver")) {
+    result.driver = load_driver_names(prf_ros::PrivateParameters(ros::NodeHandle(node, "driver")));
+    result.world.driver = read_driver_model(values.section("driver_model"));
+  }
   result.world.arm_latency = values.number("arm_latency");
   const std::vector<double> start = values.numbers("initial_positions", 7);
   for (std::size_t i = 0; i < start.size(); ++i) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <prf_ros/private_parameters.hpp>
 
 #include "camera_sim/hand_camera.hpp"
+#include "driver_interface.hpp"
 #include "platform_sim/world.hpp"
 
 namespace platform_sim {
@@ -13,6 +15,7 @@ struct SimParams {
   WorldParams world;
   std::string variation;  // what the seed drew, in words
   camera_sim::HandCameraParams camera;
+  std::optional<DriverNames> driver;  // none: joint_command and joint_states
   bool lockstep = true;
   bool paused = false;
   double response_timeout = 0.0;  // s, wall time
@@ -25,7 +28,8 @@ struct SimParams {
   void validate() const;
 };
 
-// Throws std::invalid_argument with name, value and bound.
-[[nodiscard]] SimParams load_params(prf_ros::PrivateParameters values);
+// `node` has the block `driver` when the arm is moved by a driver. Throws std::invalid_argument
+// with name, value and bound.
+[[nodiscard]] SimParams load_params(prf_ros::PrivateParameters values, const ros::NodeHandle& node);
 
 }  // namespace platform_sim

@@ -29,11 +29,13 @@ std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
 
 }  // namespace
 
-SimPublishers::SimPublishers(ros::NodeHandle& node)
+SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states)
     : clock_(node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueueSize)),
       image_(node.advertise<sensor_msgs::Image>(topics::kCameraImageRaw, kImageQueueSize)),
       camera_info_(node.advertise<sensor_msgs::CameraInfo>(topics::kCameraCameraInfo, kQueueSize)),
-      joint_states_(node.advertise<sensor_msgs::JointState>(topics::kJointStates, kQueueSize)),
+      joint_states_(with_joint_states
+                        ? node.advertise<sensor_msgs::JointState>(topics::kJointStates, kQueueSize)
+                        : ros::Publisher()),
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics, 10)),
       platform_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthPlatform, kQueueSize)),
       base_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthBase, kQueueSize)),
@@ -102,14 +104,15 @@ unsigned SimPublishers::subscribers() const {
   for (const ros::Publisher* publisher :
        {&clock_, &image_, &camera_info_, &joint_states_, &platform_, &base_, &tag_, &camera_,
         &end_effector_, &contacts_}) {
-    count += publisher->getNumSubscribers();
+    if (*publisher) count += publisher->getNumSubscribers();
   }
   return count;
 }
 
 std::vector<std::string> SimPublishers::without_subscriber(bool camera_too) const {
   std::vector<std::string> names;
-  if (joint_states_.getNumSubscribers() == 0) names.push_back(joint_states_.getTopic());
+  if (joint_states_ && joint_states_.getNumSubscribers() == 0)
+    names.push_back(joint_states_.getTopic());
   if (camera_too && image_.getNumSubscribers() == 0) names.push_back(image_.getTopic());
   return names;
 }

@@ -17,7 +17,8 @@ namespace platform_sim {
 // Everything that the simulated robot and the ground truth say.
 class SimPublishers {
  public:
-  explicit SimPublishers(ros::NodeHandle& node);
+  // `with_joint_states`: false when a driver says them.
+  SimPublishers(ros::NodeHandle& node, bool with_joint_states);
 
   void publish_clock(std::int64_t now_ms);
   void publish_image(std::int64_t stamp_ms, const cv::Mat& image,

@@ -36,7 +36,8 @@ void Responses::note(Response response, const std::string& what) {
                              });
 }
 
-Responses::Responses(ros::NodeHandle& node, Peer peer) : lockstep_(peer), inputs_(node, &updater_) {
+Responses::Responses(ros::NodeHandle& node, Peer peer, bool with_driver)
+    : lockstep_(peer, with_driver), inputs_(node, &updater_) {
   updater_.setHardwareID("none");
   updater_.add("responses", this, &Responses::diagnose);
   if (peer == Peer::kGuide) {
@@ -49,6 +50,10 @@ Responses::Responses(ros::NodeHandle& node, Peer peer) : lockstep_(peer), inputs
   note<prf_msgs::SkillTrajectory>(Response::kTrajectory, "prf_msgs/SkillTrajectory");
   note<trajectory_msgs::MultiDOFJointTrajectory>(Response::kSetpoint,
                                                  "trajectory_msgs/MultiDOFJointTrajectory");
+  if (with_driver) {
+    note<trajectory_msgs::JointTrajectory>(Response::kCommand, "trajectory_msgs/JointTrajectory");
+    return;
+  }
   listen(Response::kCommand,
          "trajectory_msgs/JointTrajectory with j2s7s300_joint_1 ... j2s7s300_joint_7",
          &Responses::receive_command);

@@ -25,7 +25,8 @@ namespace platform_sim {
 // What comes back from the framework, or from the guiding hand.
 class Responses {
  public:
-  Responses(ros::NodeHandle& node, Peer peer);
+  // `with_driver`: joint_command is only noted, the arm is moved by what its driver is sent.
+  Responses(ros::NodeHandle& node, Peer peer, bool with_driver);
 
   Lockstep& lockstep() { return lockstep_; }
 

@@ -13,9 +13,8 @@
 namespace platform_sim {
 namespace {
 
-constexpr std::int64_t kTickMs =
-    10;                             // control period; the first tick is one period after the start
-constexpr double kFallDelay = 1.0;  // s
+constexpr std::int64_t kTickMs = 10;  // control period; that of the driver, where there is one
+constexpr double kFallDelay = 1.0;    // s
 // Nodes that were running before the clock went back drop the first ticks, so no response to these
 // is insisted on.
 constexpr std::int64_t kBeginMs = 100;
@@ -60,13 +59,15 @@ std::string joined(const std::vector<std::string>& words) {
 Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
                        const SimParams& params, const std::string& urdf)
     : params_(params),
+      tick_ms_(params.driver ? std::llround(1000.0 * params.driver->period) : kTickMs),
       world_(make_world(urdf, params.world)),
       camera_(urdf, world_.target(), params.camera),
-      schedule_(params.camera.timing, kTickMs),
-      publishers_(node),
-      responses_(node, peer_of(params)),
+      schedule_(params.camera.timing, tick_ms_),
+      publishers_(node, !params.driver),
+      responses_(node, peer_of(params), params.driver.has_value()),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
       started_(!params.paused) {
+  if (params.driver) driver_.emplace(node, *params.driver, [this] { heard_driver(); });
   ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
 }
 
@@ -117,11 +118,18 @@ Simulation::End Simulation::wait_for_connections() {
   ros::WallTime changed = begin;
   unsigned connections = 0;
   while (ros::ok()) {
-    const unsigned count = publishers_.subscribers() + responses_.publishers();
+    const unsigned count =
+        publishers_.subscribers() + responses_.publishers() + (driver_ ? driver_->links() : 0);
     if (count != connections) changed = ros::WallTime::now();
     connections = count;
-    const std::vector<std::string> unread = publishers_.without_subscriber(camera_too);
-    const std::vector<std::string> without_sender = responses_.without_publisher();
+    std::vector<std::string> unread = publishers_.without_subscriber(camera_too);
+    std::vector<std::string> without_sender = responses_.without_publisher();
+    if (driver_ && !driver_->without_subscriber().empty()) {
+      unread.push_back(driver_->without_subscriber());
+    }
+    if (driver_ && !driver_->without_publisher().empty()) {
+      without_sender.push_back(driver_->without_publisher());
+    }
     const bool complete = unread.empty() && without_sender.empty();
     if (complete && seconds_since(changed) > kSettledConnections) return End::kEnded;
     if (!complete && seconds_since(begin) > params_.response_timeout) {
@@ -138,7 +146,7 @@ Simulation::End Simulation::wait_for_connections() {
 
 void Simulation::simulate_tick() {
   const ros::WallTime begin = ros::WallTime::now();
-  for (std::int64_t i = 0; i < kTickMs; ++i) {
+  for (std::int64_t i = 0; i < tick_ms_; ++i) {
     world_.step();
     ++now_ms_;
     if (schedule_.captures_at(now_ms_)) {
@@ -158,7 +166,11 @@ void Simulation::publish_tick() {
   publishers_.publish_clock(now_ms_);
   publish_due_images();
   publishers_.publish_ground_truth(now_ms_, world_);
-  publishers_.publish_joint_states(now_ms_, world_);
+  if (driver_) {
+    driver_->publish(now_ms_, world_);
+  } else {
+    publishers_.publish_joint_states(now_ms_, world_);
+  }
   responses_.lockstep().published_joint_states(stamp_at(now_ms_));
 }
 
@@ -189,7 +201,8 @@ Simulation::End Simulation::wait_for_responses() {
   const ros::WallTime begin = ros::WallTime::now();
   double patience = params_.patience;
   if (patience == 0.0 && now_ms_ <= kBeginMs) patience = kBeginPatience;
-  if (patience == 0.0 && now_ms_ == kBeginMs + kTickMs) responses_.lockstep().insist();
+  if (patience == 0.0 && now_ms_ > kBeginMs && now_ms_ <= kBeginMs + tick_ms_)
+    responses_.lockstep().insist();
   spin(ros::WallDuration(0.0));
   while (params_.lockstep && !responses_.lockstep().is_complete()) {
     if (!ros::ok()) return End::kInterrupted;
@@ -206,7 +219,7 @@ Simulation::End Simulation::wait_for_responses() {
   }
   if (params_.lockstep && responses_.lockstep().goes_without()) {
     if (now_ms_ > kBeginMs) ++unanswered_;
-    while (seconds_since(begin) < seconds(kTickMs) && ros::ok()) spin(ros::WallDuration(0.001));
+    while (seconds_since(begin) < seconds(tick_ms_) && ros::ok()) spin(ros::WallDuration(0.001));
   }
   waiting_ += ros::WallTime::now() - begin;
   return ros::ok() ? End::kEnded : End::kInterrupted;
@@ -222,7 +235,20 @@ void Simulation::go_on(double patience) {
            joined(names).c_str(), patience);
 }
 
+void Simulation::heard_driver() {
+  if (now_ms_ == 0) return;
+  [[maybe_unused]] const Receipt counted =
+      responses_.lockstep().received(Response::kDriver, stamp_at(now_ms_));
+}
+
+void Simulation::apply_driver() {
+  if (!driver_) return;
+  if (driver_->take_halt()) world_.halt_driver();
+  for (const DriverPoint& point : driver_->take()) world_.command_driver(point);
+}
+
 void Simulation::apply_responses() {
+  apply_driver();
   if (const auto command = responses_.take_command()) {
     world_.command_arm(command->positions, command->velocities);
   }
@@ -267,7 +293,8 @@ void Simulation::report_rate() {
   const ros::WallDuration since = ros::WallTime::now() - last_report_;
   if (since.toSec() < kReportPeriod) return;
   const double factor = seconds(now_ms_ - last_report_ms_) / since.toSec();
-  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / kTickMs, responses_.refused(),
+  publishers_.publish_diagnostics(now_ms_, factor, 1000.0 * factor / static_cast<double>(tick_ms_),
+                                  responses_.refused() + (driver_ ? driver_->refused() : 0),
                                   unanswered_);
   last_report_ = ros::WallTime::now();
   last_report_ms_ = now_ms_;

@@ -14,6 +14,7 @@
 
 #include "camera_sim/camera_schedule.hpp"
 #include "camera_sim/hand_camera.hpp"
+#include "driver_interface.hpp"
 #include "params.hpp"
 #include "platform_sim/world.hpp"
 #include "publishers.hpp"
@@ -52,18 +53,22 @@ class Simulation {
   void begin_to_draw(Image& image);
   void go_on(double patience);
   void apply_responses();
+  void apply_driver();
+  void heard_driver();
   void keep_pace();
   [[nodiscard]] bool at_end();
   void report_rate();
   void report_end() const;
 
   SimParams params_;
+  std::int64_t tick_ms_;  // control period; the first tick is one period after the start
   World world_;
   camera_sim::HandCamera camera_;
   camera_sim::CameraSchedule schedule_;
   std::deque<Image> images_;  // exposed, latency not yet over
   SimPublishers publishers_;
   Responses responses_;
+  std::optional<DriverInterface> driver_;
   ros::ServiceServer start_service_;
   bool started_;
   std::int64_t now_ms_ = 0;

@@ -10,7 +10,8 @@ namespace platform_sim {
 namespace {
 
 // The responses without which the simulator does not advance.
-constexpr std::array kAwaited = {Response::kWrench, Response::kProgress, Response::kCommand};
+constexpr std::array kAwaited = {Response::kWrench, Response::kProgress, Response::kCommand,
+                                 Response::kDriver};
 
 }  // namespace
 
@@ -28,6 +29,8 @@ const char* topic_name(Response response) {
       return prf_msgs::topics::kExecutionSetpoint;
     case Response::kCommand:
       return prf_msgs::topics::kJointCommand;
+    case Response::kDriver:
+      return "the driver's command";
     case Response::kWrench:
       return prf_msgs::topics::kGuideWrench;
   }
@@ -51,6 +54,7 @@ void Lockstep::published_joint_states(prf_core::Stamp tick) {
   expect(Response::kProgress, tick);
   expect(Response::kSetpoint, tick);
   expect(Response::kCommand, tick);
+  if (with_driver_) expect(Response::kDriver, tick);
 }
 
 Receipt Lockstep::received(Response response, prf_core::Stamp stamp) {

@@ -10,6 +10,7 @@
 #include "motion/body_motion.hpp"
 #include "physics/arm_servo.hpp"
 #include "physics/base_carrier.hpp"
+#include "physics/driver_arm.hpp"
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "prf_core/require.hpp"
@@ -77,6 +78,8 @@ class World::Impl {
 
   void step();
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
+  void command_driver(const DriverPoint& point);
+  void halt_driver() { arm_->halt(); }
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
   void push(const std::string& link, const Eigen::Vector3d& force);
   [[nodiscard]] JointStates joints() const;
@@ -152,7 +155,9 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
   }
   if (target_.on_cart) push_.emplace(CartPush::draw(config.seed));
   place_robot(config);
-  if (config.arm_mode == ArmMode::kServo) {
+  if (config.arm_mode == ArmMode::kServo && config.driver) {
+    arm_ = std::make_unique<DriverArm>(scene_, robot_, arm_joints, *config.driver);
+  } else if (config.arm_mode == ArmMode::kServo) {
     arm_ = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
                                       config.arm_latency);
   } else {
@@ -269,6 +274,14 @@ void World::Impl::command_arm(const ArmVector& positions, const ArmVector& veloc
   arm_->command(positions, velocities, time());
 }
 
+void World::Impl::command_driver(const DriverPoint& point) {
+  if (!point.positions.allFinite() || !point.velocities.allFinite() ||
+      !std::isfinite(point.duration)) {
+    throw std::invalid_argument("command_driver: all numbers must be finite");
+  }
+  arm_->send(point, time());
+}
+
 void World::Impl::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
   if (!force.allFinite() || !torque.allFinite()) {
     throw std::invalid_argument("apply_hand_wrench: force and torque must be finite");
@@ -334,6 +347,9 @@ bool World::fallen() const { return impl_->fallen(); }
 void World::command_arm(const ArmVector& positions, const ArmVector& velocities) {
   impl_->command_arm(positions, velocities);
 }
+
+void World::command_driver(const DriverPoint& point) { impl_->command_driver(point); }
+void World::halt_driver() { impl_->halt_driver(); }
 
 void World::apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
   impl_->apply_hand_wrench(force, torque);

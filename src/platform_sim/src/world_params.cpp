@@ -24,6 +24,16 @@ void require_body_motion(const std::string& path) {
 
 }  // namespace
 
+void DriverModel::validate() const {
+  prf_core::require_between("driver_model/latency", latency, 0.0, 0.2, "s");
+  prf_core::require_between("driver_model/take_period", take_period, 0.0, 0.1, "s");
+  prf_core::require(queue >= 1 && queue <= 10000, "driver_model/queue", queue, "within [1, 10000]");
+  prf_core::require_between("driver_model/lifetime", lifetime, 0.0, 10.0, "s");
+  const bool has_servo = takes != Takes::kVelocities;
+  prf_core::require_between("driver_model/servo_gain", servo_gain, has_servo ? 0.1 : 0.0, 500.0,
+                            "1/s");
+}
+
 const std::vector<std::string>& WorldParams::scenario_names() {
   static const std::vector<std::string> names{"treadmill", kCart};
   return names;
@@ -57,6 +67,7 @@ void WorldParams::validate() const {
   prf_core::require_between("base_start_yaw", base_start_yaw, -0.5, 0.5, "rad");
   prf_core::require_between("servo_gain", servo_gain, 0.1, 200.0, "1/s");
   prf_core::require_between("arm_latency", arm_latency, 0.0, 0.2, "s");
+  if (driver) driver->validate();
   for (int i = 0; i < arm_start.size(); ++i) {
     prf_core::require_between("arm_start[" + std::to_string(i) + "]", arm_start[i], -7.0, 7.0,
                               "rad");

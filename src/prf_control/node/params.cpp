@@ -8,7 +8,7 @@ namespace prf_control {
 
 void NodeParams::validate() const {
   controller.validate();
-  prf_core::require_between("tick_period", tick_period, 0.002, 0.02, "s");
+  prf_core::require_between("tick_period", tick_period, 0.001, 0.1, "s");
   const auto require_name = [](const std::string& parameter, const std::string& name) {
     prf_core::require(!name.empty(), parameter, "''", "not empty");
   };

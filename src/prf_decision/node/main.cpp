@@ -20,7 +20,6 @@ namespace prf_decision {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
-constexpr double kTickRate = 100.0;   // Hz
 constexpr double kTickSilence = 2.0;  // s of wall time, after which a client is told
 
 class DecisionNode {
@@ -49,9 +48,10 @@ class DecisionNode {
 
   void subscribe() {
     const auto& [frame, hand, prefix] = params_.robot;
+    const double tick_rate = 1 / params_.tick_period;
     const double camera_rate = 1 / to_seconds(params_.gate.camera_period);
     inputs_.subscribe<sensor_msgs::JointState>(
-        {"joint_states", "sensor_msgs/JointState with " + prefix + "1 ... 7", kTickRate}, kQueue,
+        {"joint_states", "sensor_msgs/JointState with " + prefix + "1 ... 7", tick_rate}, kQueue,
         [this](const sensor_msgs::JointStateConstPtr& message) { on_joint_states(*message); });
     inputs_.subscribe<prf_msgs::TargetForecast>(
         {"target/forecast", "prf_msgs/TargetForecast in " + frame, camera_rate}, kQueue,
@@ -62,7 +62,7 @@ class DecisionNode {
         kQueue,
         [this](const prf_msgs::SkillTrajectoryConstPtr& message) { on_trajectory(*message); });
     inputs_.subscribe<prf_msgs::ControlStatus>(
-        {"control/status", "prf_msgs/ControlStatus, one for each tick", kTickRate}, kQueue,
+        {"control/status", "prf_msgs/ControlStatus, one for each tick", tick_rate}, kQueue,
         [this](const prf_msgs::ControlStatusConstPtr& message) { on_control_status(*message); });
   }
 

@@ -78,6 +78,7 @@ void RobotNames::validate() const {
 
 void DecisionNodeParams::validate() const {
   robot.validate();
+  prf_core::require_between("tick_period", tick_period, 0.001, 0.1, "s");
   gate.validate();
   decision.validate();
 }
@@ -87,6 +88,7 @@ DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
   DecisionNodeParams params;
   params.robot = {values.text("planning_frame"), values.text("hand_frame"),
                   values.text("joint_prefix")};
+  params.tick_period = values.number("tick_period");
   params.gate.pipeline_delay = seconds("pipeline_delay");
   params.gate.camera_period = seconds("camera_period");
   params.gate.control_delay = seconds("control_delay");

@@ -22,6 +22,7 @@ struct RobotNames {
 
 struct DecisionNodeParams {
   RobotNames robot;
+  double tick_period = 0.0;  // s, of joint_states and control/status
   GateParams gate;
   DecisionParams decision;
 

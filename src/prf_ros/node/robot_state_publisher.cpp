@@ -33,7 +33,7 @@ namespace {
 using sensor_msgs::JointState;
 
 constexpr unsigned kQueue = 1000;
-constexpr double kRate = 100.0;  // Hz, of the framework's control ticks
+constexpr double kTickPeriod = 0.01;  // s, unless ~tick_period says another one
 constexpr std::size_t kNamesShown = 10;
 
 std::vector<geometry_msgs::TransformStamped> to_messages(const std::vector<LinkFrame>& frames,
@@ -68,11 +68,17 @@ class RobotStatePublisher {
     inputs_.subscribe<JointState>(
         {prf_msgs::topics::kJointStates,
          "sensor_msgs/JointState with joints of the robot: " + listed(tree_.moving_joints()),
-         kRate},
+         1.0 / tick_period()},
         kQueue, [this](const sensor_msgs::JointStateConstPtr& message) { receive(*message); });
   }
 
  private:
+  static double tick_period() {
+    const double period = ros::NodeHandle("~").param("tick_period", kTickPeriod);
+    prf_core::require_between("tick_period", period, 0.001, 0.1, "s");
+    return period;
+  }
+
   void receive(const JointState& message) {
     const std::string reason = refusal(message);
     if (reason.empty()) {

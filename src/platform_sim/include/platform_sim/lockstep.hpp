@@ -31,9 +31,10 @@ enum class Response {
   kTrajectory,
   kSetpoint,
   kCommand,
+  kDriver,
   kWrench
 };
-inline constexpr std::size_t kResponseCount = 7;
+inline constexpr std::size_t kResponseCount = 8;
 
 const char* topic_name(Response response);
 
@@ -52,7 +53,9 @@ enum class Receipt {
 
 class Lockstep {
  public:
-  explicit Lockstep(Peer peer) : peer_(peer) {}
+  // `with_driver`: the arm is moved by messages to its driver, one for each joint_command. They
+  // have no stamp: the caller gives them that of the tick in which they come.
+  explicit Lockstep(Peer peer, bool with_driver = false) : peer_(peer), with_driver_(with_driver) {}
 
   // What the simulator published.
   void published_image(prf_core::Stamp exposure);
@@ -64,7 +67,8 @@ class Lockstep {
   // A forecast_stamp ahead of everything published names no forecast.
   Receipt received_progress(prf_core::Stamp stamp, prf_core::Stamp forecast_stamp);
 
-  // Whether the simulator may advance: no progress, command or wrench is pending. The other
+  // Whether the simulator may advance: no progress, command, message to the
+  // driver or wrench is pending. The other
   // responses are not waited for; they only serve first_silent().
   [[nodiscard]] bool is_complete() const;
 
@@ -95,6 +99,7 @@ class Lockstep {
   }
 
   Peer peer_;
+  bool with_driver_;
   std::array<Expected, kResponseCount> expected_;
   std::optional<prf_core::Stamp> newest_;  // that was published
   std::optional<prf_core::Stamp> forecast_in_force_;

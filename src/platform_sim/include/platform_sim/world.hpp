@@ -59,11 +59,16 @@ class World {
   /// touches the platform. Always false if the base is carried.
   [[nodiscard]] bool fallen() const;
 
-  /// ArmMode::kServo only, else std::invalid_argument. Queues a set-point of the arm: it waits for
-  /// arm_latency at least, one is taken every 10 ms, and it is held until the next one is taken.
-  /// The velocity is a feed-forward that lapses 20 ms later, so that an arm without commands comes
-  /// to rest.
+  /// ArmMode::kServo without a driver only, else std::invalid_argument. Queues a set-point of the
+  /// arm: it waits for arm_latency at least, one is taken every 10 ms, and it is held until the
+  /// next one is taken. The velocity is a feed-forward that lapses 20 ms later, so that an arm
+  /// without commands comes to rest.
   void command_arm(const ArmVector& positions, const ArmVector& velocities);
+  /// With WorldParams::driver only, else std::invalid_argument. Sends the driver a message; what is
+  /// not finite throws, too.
+  void command_driver(const DriverPoint& point);
+  /// The same. Forgets what waits and brings the arm to rest where it is.
+  void halt_driver();
   /// ArmMode::kCompliant only, else std::invalid_argument. Force, N, at the origin of
   /// j2s7s300_end_effector and torque, Nm, on the hand, in world axes, held until the next call.
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);

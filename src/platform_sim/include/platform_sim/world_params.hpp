@@ -3,14 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "camera_sim/target_box.hpp"
+#include "platform_sim/driver_model.hpp"
 
 namespace platform_sim {
-
-using ArmVector = Eigen::Matrix<double, 7, 1>;
 
 enum class ArmMode {
   kServo,      ///< velocity-limited position servos, see command_arm()
@@ -34,6 +34,9 @@ struct WorldParams {
   ArmVector arm_start = ArmVector::Zero();  ///< rad
   double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
   double arm_latency = 0.02;  ///< s, from a command to the arm's servos; chosen by hand
+  /// Of ArmMode::kServo: the arm does what this driver is sent, see command_driver(); none: it
+  /// takes command_arm().
+  std::optional<DriverModel> driver;
   camera_sim::TargetBox target;
 
   [[nodiscard]] static const std::vector<std::string>& scenario_names();

@@ -34,6 +34,12 @@ void ArmDrive::command(const Eigen::VectorXd&, const Eigen::VectorXd&, double) {
   throw std::invalid_argument("command_arm needs arm_mode kServo");
 }
 
+void ArmDrive::send(const DriverPoint&, double) {
+  throw std::invalid_argument("command_driver needs a driver");
+}
+
+void ArmDrive::halt() { throw std::invalid_argument("halt_driver needs a driver"); }
+
 void ArmDrive::apply_hand_wrench(const Eigen::Vector3d&, const Eigen::Vector3d&) {
   throw std::invalid_argument("apply_hand_wrench needs arm_mode kCompliant");
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "multibody_from_urdf.hpp"
+#include "platform_sim/driver_model.hpp"
 
 namespace platform_sim {
 
@@ -30,14 +31,17 @@ class JointMotor {
   std::unique_ptr<btMultiBodyJointMotor> motor_;
 };
 
-/// What moves an arm's joints. A drive takes commands or wrenches, not both; what it does not take
-/// throws std::invalid_argument.
+/// What moves an arm's joints. A drive takes commands, messages of a driver or wrenches; what it does
+/// not take throws std::invalid_argument.
 class ArmDrive {
  public:
   virtual ~ArmDrive() = default;
   /// Positions, rad, and velocities, rad/s, to be reached from `time`, s, on.
   virtual void command(const Eigen::VectorXd& positions, const Eigen::VectorXd& velocities,
                        double time);
+  /// A message to the driver, from `time`, s, on, and an end to all that it was sent.
+  virtual void send(const DriverPoint& point, double time);
+  virtual void halt();
   /// Force, N, and torque, Nm, on the hand in world axes, held until the next call.
   virtual void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
   /// To be called before each physics step.

@@ -42,7 +42,7 @@ def make_recording(seconds=10.0, lateral=0.0, along=judge.STAND_OFF, state="DONE
     `lateral` and `along` are numbers or arrays with one entry a tick.
     """
     count = int(round(seconds * 100)) + 1
-    ticks = START + judge.TICK * np.arange(count, dtype=np.int64)
+    ticks = START + recording.TICK * np.arange(count, dtype=np.int64)
     lateral, along = (np.broadcast_to(value, count) for value in (lateral, along))
     camera = recording.Poses(ticks, np.array([camera_pose(*row) for row in zip(lateral, along)]))
     images = ticks[::3]

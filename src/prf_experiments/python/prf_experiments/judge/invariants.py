@@ -26,7 +26,6 @@ from catkin.find_in_workspaces import find_in_workspaces
 from prf_experiments.judge import judge
 from prf_experiments.record.recording import ARM_JOINTS, Joints, Recording
 
-DT = judge.TICK / judge.SECOND  # s
 TOLERANCE = 1e-6  # relative, and rad or rad/s
 TOLD = 3  # violations of a kind
 
@@ -104,7 +103,7 @@ def check(data: Recording, bounds: Limits | None = None,
     _tell(findings, data, stamps, infinite, q, "command that is not finite")
     if np.any(infinite):
         return findings
-    gaps = np.flatnonzero(np.diff(stamps) != judge.TICK)
+    gaps = np.flatnonzero(np.diff(stamps) != data.tick)
     if len(gaps) and not data.description.get("arguments", {}).get("fault"):
         findings.violations.append(
             f"joint_command breaks off at {data.seconds(stamps[gaps[0]]):.2f} s")
@@ -114,13 +113,14 @@ def check(data: Recording, bounds: Limits | None = None,
 
 def _check_motion(findings, data, bounds, stamps, q, v, measured):
     step, change = np.diff(q, axis=0), np.diff(v, axis=0)
-    farthest = bounds.velocity * DT
+    dt = data.tick / judge.SECOND  # s
+    farthest = bounds.velocity * dt
     lag = _apart(q, measured)
     known = np.isfinite(lag)
     near = np.all(np.where(known, lag, 0.0) <= farthest + 0.01, axis=1)
     anew = near & np.all(v == 0.0, axis=1)  # a command may begin anew at such a tick
-    goes_on = (np.diff(stamps) == judge.TICK) & ~anew[1:]
-    allowed = np.where(np.diff(stamps)[:, None] == judge.TICK, farthest, np.inf)
+    goes_on = (np.diff(stamps) == data.tick) & ~anew[1:]
+    allowed = np.where(np.diff(stamps)[:, None] == data.tick, farthest, np.inf)
 
     outside = np.maximum(bounds.lower - q, q - bounds.upper)
     before = np.vstack([np.full((1, q.shape[1]), np.inf), outside[:-1]])
@@ -131,20 +131,20 @@ def _check_motion(findings, data, bounds, stamps, q, v, measured):
           & (np.abs(step) > allowed * (1 + TOLERANCE) + TOLERANCE), np.abs(step),
           "step beyond one tick's motion")
     away = (lag > farthest + 0.01) & known
-    fresh = np.concatenate([[True], np.diff(stamps) > judge.TICK])
+    fresh = np.concatenate([[True], np.diff(stamps) > data.tick])
     _tell(findings, data, stamps, fresh[:, None] & away, lag,
           "first command, or first one after a gap, away from the measured position")
     _tell(findings, data, stamps, np.abs(v) > bounds.velocity * (1 + TOLERANCE), np.abs(v),
           "velocity beyond its limit")
     _tell(findings, data, stamps[1:], goes_on[:, None]
-          & (np.abs(change) > bounds.acceleration * DT * (1 + TOLERANCE) + TOLERANCE),
-          np.abs(change) / DT, "acceleration beyond its limit")
+          & (np.abs(change) > bounds.acceleration * dt * (1 + TOLERANCE) + TOLERANCE),
+          np.abs(change) / dt, "acceleration beyond its limit")
     _tell(findings, data, stamps, known & (lag > bounds.lag + farthest + TOLERANCE), lag,
           "command too far from the measured position")
     findings.figures = {
         "largest_joint_step_rad": float(np.max(np.abs(step), initial=0.0)),
         "largest_velocity_share": float(np.max(np.abs(v) / bounds.velocity)),
         "largest_acceleration_share": float(
-            np.max(np.abs(change[goes_on]), initial=0.0) / (bounds.acceleration * DT)),
+            np.max(np.abs(change[goes_on]), initial=0.0) / (bounds.acceleration * dt)),
         "largest_lag_rad": float(np.max(lag[known], initial=0.0)),
         "commands_count": len(stamps)}

@@ -43,7 +43,6 @@ FALLEN_HEIGHT = interfaces.load().fallen_height  # m, body above the deck along 
 FALLEN_TILT = interfaces.load().fallen_tilt  # rad, body's z axis to the deck's normal
 LYING = ("body", "platform")  # links whose contact means the same
 
-TICK = SECOND // 100  # joint_states and everything published with them
 MAX_IMAGES_IN_FLIGHT = 3  # in flight when the trial ends
 
 STATES = enums.names(ExecutionProgress)
@@ -132,12 +131,12 @@ def defect(recording: Recording) -> str:
     if not injected:
         series["execution/progress"] = recording.progress.stamps
     for name, stamps in series.items():
-        lost = np.flatnonzero(np.diff(stamps) != TICK)
+        lost = np.flatnonzero(np.diff(stamps) != recording.tick)
         if lost.size:
             return (f"{name} breaks off {recording.seconds(stamps[lost[0]]):.2f} s into the trial: "
                     f"next stamp {(stamps[lost[0] + 1] - stamps[lost[0]]) * 1e-9:.3f} s later")
-        if (abs(stamps[0] - recording.ticks[0]) > TICK
-                or abs(stamps[-1] - recording.ticks[-1]) > TICK):
+        if (abs(stamps[0] - recording.ticks[0]) > recording.tick
+                or abs(stamps[-1] - recording.ticks[-1]) > recording.tick):
             return (f"{name} covers {recording.seconds(stamps[0]):.2f} to "
                     f"{recording.seconds(stamps[-1]):.2f} s of a trial of "
                     f"{recording.seconds(recording.ticks[-1]):.2f} s")
@@ -153,7 +152,7 @@ def defect(recording: Recording) -> str:
                 or _fall(recording)[0] is not None)
     duration = recording.ticks[-1] - recording.ticks[0]
     limit = min(TIME_LIMIT, round(SECOND * float(arguments.get("time_limit", TIME_LIMIT / SECOND))))
-    if not finished and duration < limit - 2 * TICK:
+    if not finished and duration < limit - 2 * recording.tick:
         return (f"the trial ends after {duration * 1e-9:.2f} s in state "
                 f"{STATES[recording.progress.states[-1]]}, before its time")
     return ""

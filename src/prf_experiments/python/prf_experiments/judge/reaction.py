@@ -9,7 +9,7 @@ from prf_experiments.record.recording import Recording
 from prf_msgs.msg import ExecutionProgress
 
 GOING = (ExecutionProgress.FORWARD, ExecutionProgress.TRACKING, ExecutionProgress.DONE)
-COMMAND_AGE = 5 * judge.TICK  # older: the arm stands where it was sent last
+COMMAND_AGE = judge.SECOND // 20  # older: the arm stands where it was sent last
 SETTLED = 30  # ticks that count as going on again
 WINDOW = 5 * judge.SECOND  # after the last event in which a hold is put down to the fault
 EPISODE = judge.SECOND // 2  # events of one fault that are closer are one

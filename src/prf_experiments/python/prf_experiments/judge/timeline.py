@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prf_experiments.judge import judge, reaction, world
-from prf_experiments.record.recording import Recording
+from prf_experiments.record.recording import TICK, Recording
 from prf_msgs import enums
 from prf_msgs.msg import ControlStatus, SkillTrajectory, TargetForecast
 
@@ -44,7 +44,7 @@ def changes(values: Sequence[int] | np.ndarray) -> list[int]:
 
 
 def _lasting(stamps):
-    return f"{1e-9 * (stamps[-1] - stamps[0] + judge.TICK):.2f} s"
+    return f"{1e-9 * (stamps[-1] - stamps[0] + TICK):.2f} s"
 
 
 def _phases(data):
@@ -185,7 +185,7 @@ def phase_lines(data: Recording) -> list[tuple[str, float, float, float, float, 
         rows = np.isin(stamps, data.progress.stamps[data.progress.states == state])
         if rows.any():
             millimetres = 1e3 * lateral[rows]
-            lines.append((name, 1e-9 * judge.TICK * int(rows.sum()), float(millimetres.mean()),
+            lines.append((name, 1e-9 * data.tick * int(rows.sum()), float(millimetres.mean()),
                           float(millimetres.std()), float(millimetres.max()),
                           *_mean_and_most(following_at(data, stamps[rows]))))
     return lines

@@ -15,6 +15,7 @@ from prf_msgs import bags
 
 PLANNING_FRAME = "j2s7s300_link_base"
 BODY_FRAME = "base_link"
+TICK = 10_000_000  # ns, of the simulator; a driver may have another one
 NEEDED = topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS  # of a trial's bag
 ARM_JOINTS = [f"j2s7s300_joint_{number}" for number in range(1, 8)]
 
@@ -129,6 +130,11 @@ class Recording:
             return self.progress.stamps, self.progress.following
         errors = [self.control.position_errors, self.control.orientation_errors]
         return self.control.stamps[:len(errors[0])], np.column_stack(errors)
+
+    @property
+    def tick(self) -> int:
+        """Period of joint_states and everything published with them, ns; the arm's driver has it."""
+        return round(1e9 * self.description.get("tick_s", 1e-9 * TICK))
 
     @property
     def start(self) -> int:

@@ -28,6 +28,15 @@ def trial_links(source: str, simulated: bool = True) -> set[Link]:
     return {(topic, "/" + publisher, "/" + subscriber) for topic, publisher, subscriber in links}
 
 
+def through_driver(links: set[Link], source: str) -> set[Link]:
+    """The links of a trial whose arm is moved by a driver: joint_states come from the joiner."""
+    joint_states, command = "/joint_states", "/joint_command"
+    changed = {(topic, "/joint_state_joiner" if topic == joint_states and publisher == "/" + source
+                else publisher, subscriber) for topic, publisher, subscriber in links}
+    return changed | {(command, "/" + TABLE.framework_flow[command][0], "/driver_adapter"),
+                      (joint_states, "/joint_state_joiner", "/driver_adapter")}
+
+
 class _Transport(xmlrpc.client.Transport):
     def make_connection(self, host):
         return http.client.HTTPConnection(host, timeout=TIMEOUT)

@@ -7,6 +7,8 @@ once installed, the packages say them.
 import os
 import re
 
+import yaml
+
 _SOURCES = os.path.join(os.path.dirname(os.path.realpath(__file__)), *[".."] * 4)
 
 
@@ -40,6 +42,27 @@ def of_worlds(key: str) -> list[str]:
     if line is None:
         raise KeyError(key)
     return [word.strip() for word in line[1].split(",")]
+
+
+def _driver_folder() -> str:
+    folder = os.path.join(_SOURCES, "prf_drivers", "config")
+    if not os.path.isdir(folder):
+        import rospkg
+        folder = os.path.join(rospkg.RosPack().get_path("prf_drivers"), "config")
+    return folder
+
+
+def driver_names() -> list[str]:
+    """One for each file of prf_drivers/config, sorted."""
+    return sorted(name[:-5] for name in os.listdir(_driver_folder()) if name.endswith(".yaml"))
+
+
+def driver_period(driver: str) -> float:
+    """s, of the control ticks with a driver; without one those of the simulator."""
+    if not driver:
+        return 0.01
+    with open(os.path.join(_driver_folder(), driver + ".yaml"), encoding="utf-8") as stream:
+        return float(yaml.safe_load(stream)["driver"]["period"])
 
 
 def planner_names() -> list[str]:

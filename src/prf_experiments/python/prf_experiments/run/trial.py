@@ -12,7 +12,14 @@ from prf_experiments.faults import catalogue, wiring
 from prf_experiments.judge import cause, invariants, judge, reaction
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
-from prf_experiments.run import connections, isolation, processes, session, trial_arguments
+from prf_experiments.run import (
+    connections,
+    isolation,
+    names,
+    processes,
+    session,
+    trial_arguments,
+)
 from prf_experiments.teach import demonstration
 
 SIMULATOR = "platform_sim"
@@ -39,6 +46,7 @@ def describe(values: dict) -> dict:
     return {"command": " ".join(words),
             "arguments": {name: values[name] for name in trial_arguments.LAUNCHED},
             "files": trial_arguments.contents(values),
+            "tick_s": names.driver_period(values["driver"]),
             "versions": versions()}
 
 
@@ -123,6 +131,8 @@ def session_of(values: dict, folder: str) -> session.Session:
     faults = catalogue.parse(values["fault"])
     links = (connections.trial_links(SIMULATOR)
              | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR))
+    if values["driver"]:
+        links = connections.through_driver(links, SIMULATOR)
     return session.Session(
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
         launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED

@@ -83,6 +83,8 @@ LAUNCHED = {
     "time_limit": Argument(60.0, **number(1.0, 600.0), meaning="simulated s"),
     "real_time_factor": Argument(0.0, **number(0.0, 100.0),
                                  meaning="at most so fast, 0: as fast as it goes"),
+    "driver": Argument("", **choice("", *names.driver_names()),
+                       meaning="of the arm, as the simulator offers it; none: joint_command itself"),
     "fault": Argument("", **faults(), meaning="what goes wrong, listed below; several with commas"),
     "demonstration": Argument(None, **path(), meaning="CSV file of the skill"),
 }

@@ -10,7 +10,7 @@ import synthetic
 from prf_experiments.judge import invariants, judge, reaction
 from prf_experiments.record.recording import FaultEvent, Joints
 
-DT = invariants.DT
+DT = 1e-9 * recording.TICK
 LIMITS = invariants.Limits(np.full(7, -2.0), np.full(7, 2.0), np.full(7, 0.6), 4.0, 0.2)
 
 
@@ -89,7 +89,7 @@ class Invariants(unittest.TestCase):
             data.measured.positions[:] = 0.5
             data.commands.positions[:200] = 0.5
             data.commands.positions[200:] = 0.5 + away
-            data.commands.stamps[200:] += 30 * judge.TICK
+            data.commands.stamps[200:] += 30 * recording.TICK
             data.measured = Joints(data.commands.stamps, data.measured.positions,
                                    data.measured.velocities)
             self.assertEqual(any("first one after a gap" in text for text in self.broken(data)),

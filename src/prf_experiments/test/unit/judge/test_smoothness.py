@@ -15,7 +15,7 @@ from prf_experiments import geometry
 
 def sways(amplitude, frequency, seconds=10.0):
     """Commands of seven joints that stand for 1 s and then sway."""
-    stamps = synthetic.START + judge.TICK * np.arange(int(100 * seconds))
+    stamps = synthetic.START + recording.TICK * np.arange(int(100 * seconds))
     times = np.maximum(0.0, 0.01 * np.arange(len(stamps)) - 1.0)
     positions = np.tile(amplitude * np.cos(frequency * times)[:, None], (1, 7))
     return recording.Joints(stamps, positions, np.zeros_like(positions))
