@@ -32,6 +32,15 @@ TEST(Lockstep, NeedsCommandAndProgressOfTheTick) {
   EXPECT_TRUE(lockstep.is_complete());
 }
 
+TEST(Lockstep, NeedsAMessageToTheDriverWhereThereIsOne) {
+  Lockstep lockstep(Peer::kFramework, true);
+  lockstep.published_joint_states(10 * kMs);
+  respond_to_tick(lockstep, 10 * kMs, kNone);
+  EXPECT_FALSE(lockstep.is_complete());
+  EXPECT_EQ(lockstep.received(Response::kDriver, 10 * kMs), Receipt::kTaken);
+  EXPECT_TRUE(lockstep.is_complete());
+}
+
 TEST(Lockstep, DoesNotTakeAnOldResponseForTheTick) {
   Lockstep lockstep(Peer::kFramework);
   lockstep.published_joint_states(10 * kMs);

@@ -40,7 +40,9 @@ AdapterNode::AdapterNode(ros::NodeHandle& node, const AdapterNodeParams& params)
     : params_(params),
       adapter_(params.adapter),
       output_(make_output(node, params)),
-      inputs_(node, &diagnostics_) {
+      inputs_(node, &diagnostics_),
+      operator_(inputs_, params, [this] { adapter_.set_veto(operator_.veto()); }) {
+  adapter_.set_veto(operator_.veto());
   diagnostics_.setHardwareID("none");
   diagnostics_.add("driver", this, &AdapterNode::diagnose);
   const double rate = 1.0 / params.driver.period;
@@ -108,6 +110,8 @@ double AdapterNode::silent_for() const {
 }
 
 void AdapterNode::on_period() {
+  adapter_.set_veto(operator_.veto());  // a switch that is no longer heard
+  operator_.tell(!newest_ ? -1 : hold_.empty() ? 0 : 2);
   if (!newest_) return;
   if (silent_for() <= params_.adapter.command_timeout) {
     if (params_.pace == Pace::kTimer) send(*newest_);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "driver_output.hpp"
+#include "operator_services.hpp"
 #include "params.hpp"
 
 namespace prf_drivers {
@@ -42,6 +43,7 @@ class AdapterNode {
   std::unique_ptr<DriverOutput> output_;
   diagnostic_updater::Updater diagnostics_;
   prf_ros::InputMonitor inputs_;
+  OperatorServices operator_;
   ros::SteadyTimer steady_timer_;
   ros::Timer timer_;
   std::optional<DriverCommand> newest_;

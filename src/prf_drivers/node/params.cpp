@@ -84,8 +84,12 @@ AdapterNodeParams load_adapter(const ros::NodeHandle& node, const ros::NodeHandl
   params.pace =
       one_of<Pace>("pace", values.text("pace"), {{"tick", Pace::kTick}, {"timer", Pace::kTimer}});
   params.horizon = values.number("horizon");
+  params.operators.dead_man = values.flag("dead_man");
+  params.operators.enable_timeout = values.number("enable_timeout");
+  params.operators.needs_check = values.flag("needs_check");
   values.refuse_unknown();
   params.adapter.validate();
+  params.operators.validate();
   prf_core::require_between("horizon", params.horizon, params.driver.period, 1.0, "s");
   return params;
 }

@@ -8,6 +8,7 @@
 
 #include "prf_drivers/command_adapter.hpp"
 #include "prf_drivers/joint_state_joiner.hpp"
+#include "prf_drivers/operator_gate.hpp"
 
 namespace prf_drivers {
 
@@ -33,6 +34,7 @@ enum class Pace {
 struct AdapterNodeParams {
   Driver driver;
   AdapterParams adapter;
+  OperatorParams operators;
   Pace pace = Pace::kTick;
   double horizon = 0.0;  // s, time_from_start of a trajectory's point
 };

@@ -111,7 +111,7 @@ def _waits(data):
     for state, words in ((ExecutionProgress.WAITING, "waited"), (ExecutionProgress.PAUSE, "stood still"),
                          (ExecutionProgress.REVERSE, "went back")):
         rows = np.flatnonzero(progress.states == state)
-        seconds = 1e-9 * judge.TICK * len(rows)
+        seconds = 1e-9 * data.tick * len(rows)
         if seconds >= 1.0:
             reasons = [progress.reasons[row] for row in rows if progress.reasons[row]]
             why = max(set(reasons), key=lambda reason: (reasons.count(reason), reason), default="")
