@@ -10,7 +10,7 @@ namespace elte_planner {
 
 struct SkillPlannerParams {
   SkillFiles files;
-  double late_after = 0.0;  // s, a solve that takes longer is late; within [1e-6, 10]
+  double late_after = 0.0;   // s, a solve that takes longer is late; within [1e-6, 10]
   double tick_period = 0.0;  // s, between two execution/progress; within [0.001, 0.1]
   SessionParams session;
 

@@ -31,8 +31,8 @@ class JointMotor {
   std::unique_ptr<btMultiBodyJointMotor> motor_;
 };
 
-/// What moves an arm's joints. A drive takes commands, messages of a driver or wrenches; what it does
-/// not take throws std::invalid_argument.
+/// What moves an arm's joints. A drive takes commands, messages of a driver or wrenches; what it
+/// does not take throws std::invalid_argument.
 class ArmDrive {
  public:
   virtual ~ArmDrive() = default;

@@ -8,6 +8,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
 from prf_experiments.judge import invariants, judge, reaction
+from prf_experiments.record import recording
 from prf_experiments.record.recording import FaultEvent, Joints
 
 DT = 1e-9 * recording.TICK

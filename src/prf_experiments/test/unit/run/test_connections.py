@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import unittest
 
-from prf_experiments.run import connections
+from prf_experiments.run import connections, names
 
 
 class FakeMaster:
@@ -28,6 +28,19 @@ class Links(unittest.TestCase):
         links = connections.trial_links("player", simulated=False)
         self.assertFalse(any("/platform_sim" in link for link in links))
         self.assertIn(("/joint_states", "/player", "/decision"), links)
+
+    def test_with_a_driver_joiner_and_adapter_are_in_the_loop(self):
+        links = connections.through_driver({("/joint_states", "/platform_sim", "/recorder"),
+                                            ("/camera/image_raw", "/platform_sim", "/recorder")},
+                                           "platform_sim")
+        self.assertIn(("/joint_states", "/joint_state_joiner", "/recorder"), links)
+        self.assertIn(("/camera/image_raw", "/platform_sim", "/recorder"), links)
+        self.assertIn(("/joint_command", "/arm_controller", "/driver_adapter"), links)
+
+    def test_the_tick_is_the_drivers(self):
+        self.assertEqual(names.driver_period(""), 0.01)
+        self.assertEqual(names.driver_period("kortex"), 0.025)
+        self.assertIn("kinova", names.driver_names())
 
 
 if __name__ == "__main__":
