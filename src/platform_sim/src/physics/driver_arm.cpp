@@ -10,13 +10,16 @@ namespace {
 
 using Takes = DriverModel::Takes;
 
+// Of a velocity loop: with only a proportional part the arm would sink while it stands.
+constexpr double kIntegralGain = 20.0;   // 1/s
+constexpr double kLongestWindUp = 0.05;  // rad
 constexpr double kTimeTolerance = 1e-6;  // s, rounding of sums of milliseconds
 
 }  // namespace
 
 DriverArm::DriverArm(BulletScene& scene, RobotModel& robot, const std::vector<std::string>& joints,
                      const DriverModel& model)
-    : robot_(robot), model_(model) {
+    : robot_(robot), time_step_(scene.time_step()), model_(model) {
   for (const std::string& name : joints) {
     const v60_gait::RobotJoint& joint = robot.joint(name);
     prf_core::require_positive("velocity limit of " + name, joint.max_velocity, "rad/s");
@@ -44,6 +47,7 @@ void DriverArm::halt() {
   queue_.clear();
   taken_ = DriverPoint{measured(), ArmVector::Zero(), 0.0};
   from_ = {taken_.positions, taken_.velocities};
+  integral_ = taken_.positions;
 }
 
 void DriverArm::take(double time) {
@@ -89,6 +93,11 @@ void DriverArm::update(double time) {
   if (model_.takes == Takes::kVelocities) {
     const bool lasts = model_.lifetime == 0.0 || time - taken_at_ < model_.lifetime;
     if (lasts) velocity = taken_.velocities;
+    const ArmVector now = measured();
+    integral_ = (integral_ + time_step_ * velocity)
+                    .cwiseMax(now - ArmVector::Constant(kLongestWindUp))
+                    .cwiseMin(now + ArmVector::Constant(kLongestWindUp));
+    velocity += kIntegralGain * (integral_ - now);
   } else {
     const Desired wanted = model_.takes == Takes::kPositions
                                ? Desired{taken_.positions, ArmVector::Zero()}

@@ -11,7 +11,8 @@
 namespace platform_sim {
 
 /// The arm behind one of the drivers that robots have, see DriverModel:
-///   velocities    joints move with what was taken last, until it lapses
+///   velocities    joints move with what was taken last, until it lapses: q_d is its integral,
+///                 dq = dq_taken + 20/s (q_d - q), as the integral part of a velocity loop does
 ///   positions     dq = gain (q_taken - q)
 ///   trajectories  q_d runs on a cubic polynomial from where it is to what was taken, within its
 ///                 duration, and stays there; dq = dq_d + gain (q_d - q)
@@ -44,12 +45,14 @@ class DriverArm : public ArmDrive {
   [[nodiscard]] ArmVector measured() const;
 
   RobotModel& robot_;
+  double time_step_;  // s
   DriverModel model_;
   std::vector<const v60_gait::RobotJoint*> joints_;
   std::vector<std::unique_ptr<JointMotor>> motors_;
   std::deque<Waiting> queue_;
   DriverPoint taken_;
   Desired from_;            // of a trajectory, when it began
+  ArmVector integral_;      // rad, of the velocities
   double taken_at_ = -1e9;  // s
 };
 
