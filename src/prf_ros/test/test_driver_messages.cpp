@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 // Generated from test/messages/, which has the fields of the drivers' own definitions.
-#include <kinova_msgs/JointVelocity.h>
-#include <kinova_msgs/Start.h>
-#include <kinova_msgs/Stop.h>
-#include <kortex_driver/Base_JointSpeeds.h>
+#include "kinova_msgs/JointVelocity.h"
+#include "kinova_msgs/Start.h"
+#include "kinova_msgs/Stop.h"
+#include "kortex_driver/Base_JointSpeeds.h"
 
 #include <string>
 #include <vector>
