@@ -77,6 +77,7 @@ void SimParams::validate() const {
 SimParams load_params(prf_ros::PrivateParameters values, const ros::NodeHandle& node) {
   SimParams result;
   result.world.motion = values.text("motion");
+  result.world.disturb = values.text("disturb");
   result.world.body_motion = values.text("body_motion");
   result.world.scenario =
       one_of("scenario", values.text("scenario"), WorldParams::scenario_names());

@@ -5,6 +5,7 @@
 #include <prf_msgs/ground_truth_topics.h>
 #include <prf_msgs/topics.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
 
 #include "conversions.hpp"
 
@@ -29,7 +30,7 @@ std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
 
 }  // namespace
 
-SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states)
+SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states, bool is_disturbed)
     : clock_(node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueueSize)),
       image_(node.advertise<sensor_msgs::Image>(topics::kCameraImageRaw, kImageQueueSize)),
       camera_info_(node.advertise<sensor_msgs::CameraInfo>(topics::kCameraCameraInfo, kQueueSize)),
@@ -43,7 +44,9 @@ SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states)
       camera_(node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthCamera, kQueueSize)),
       end_effector_(
           node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthEndEffector, kQueueSize)),
-      contacts_(node.advertise<prf_msgs::ContactArray>(truth::kGroundTruthContacts, kQueueSize)) {}
+      contacts_(node.advertise<prf_msgs::ContactArray>(truth::kGroundTruthContacts, kQueueSize)) {
+  if (is_disturbed) events_ = node.advertise<std_msgs::String>(topics::kFaultEvents, kQueueSize);
+}
 
 void SimPublishers::publish_clock(std::int64_t now_ms) {
   rosgraph_msgs::Clock message;
@@ -69,6 +72,17 @@ void SimPublishers::publish_ground_truth(std::int64_t now_ms, World& world) {
   camera_.publish(to_pose_stamped(header, world.frame(kOpticalFrame).pose));
   end_effector_.publish(to_pose_stamped(header, world.frame(kEndEffector).pose));
   contacts_.publish(to_contact_array(header, world.take_contacts()));
+}
+
+void SimPublishers::publish_disturbances(std::int64_t now_ms, const World& world) {
+  if (!events_) return;
+  for (const Disturbances::Acting& acting : world.disturbances().acting(world.time())) {
+    std_msgs::String message;
+    message.data = R"({"stamp": )" + std::to_string(to_stamp(now_ms).toNSec()) + R"(, "fault": ")" +
+                   acting.word + R"(", "what": ")" +
+                   (told_.insert(acting.word).second ? acting.what : "") + R"("})";
+    events_.publish(message);
+  }
 }
 
 void SimPublishers::publish_joint_states(std::int64_t now_ms, const World& world) {

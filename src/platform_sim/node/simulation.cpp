@@ -64,7 +64,7 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
       camera_(urdf, world_.target(), params.camera),
       // The exposure of the first image does not begin before the simulation does.
       schedule_(params.camera.timing, std::max(kTickMs, tick_ms_)),
-      publishers_(node, !params.driver),
+      publishers_(node, !params.driver, !params.world.disturb.empty()),
       responses_(node, peer_of(params), params.driver.has_value()),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
       started_(!params.paused) {
@@ -106,9 +106,12 @@ Simulation::End Simulation::wait_for_start() {
   if (!ros::ok()) return End::kInterrupted;
   if (end_reason == End::kEnded) {
     ROS_INFO(
-        "starting after %.1f s of waiting: scenario %s, motion %s, gait %s, seed %lu, lockstep %s",
+        "starting after %.1f s of waiting: scenario %s, motion %s, disturb '%s', gait %s, seed "
+        "%lu, "
+        "lockstep %s",
         seconds_since(begin), params_.world.scenario.c_str(), params_.world.motion.c_str(),
-        params_.world.gait.c_str(), params_.world.seed, params_.lockstep ? "on" : "off");
+        params_.world.disturb.c_str(), params_.world.gait.c_str(), params_.world.seed,
+        params_.lockstep ? "on" : "off");
   }
   return end_reason;
 }
@@ -167,6 +170,7 @@ void Simulation::publish_tick() {
   publishers_.publish_clock(now_ms_);
   publish_due_images();
   publishers_.publish_ground_truth(now_ms_, world_);
+  publishers_.publish_disturbances(now_ms_, world_);
   if (driver_) {
     driver_->publish(now_ms_, world_);
   } else {

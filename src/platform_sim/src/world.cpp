@@ -84,7 +84,8 @@ class World::Impl {
   void push(const std::string& link, const Eigen::Vector3d& force);
   [[nodiscard]] JointStates joints() const;
   [[nodiscard]] FrameState platform() const { return motion_.deck(time()); }
-  [[nodiscard]] FrameState carrier() const { return push_ ? push_->cart(time()) : platform(); }
+  [[nodiscard]] FrameState carrier() const;
+  [[nodiscard]] const Disturbances& disturbances() const { return disturbances_; }
   [[nodiscard]] FrameState tag() const;
 
   [[nodiscard]] double time() const { return static_cast<double>(steps_) * kTimeStep; }
@@ -98,6 +99,7 @@ class World::Impl {
   void place_robot(const WorldParams& config);
   void settle();
   void drive_legs();
+  void disturb();
   [[nodiscard]] v60_gait::LegObservation observe_legs();
   void judge_fall(const std::vector<ContactPoint>& points);
   [[nodiscard]] bool is_carried() const { return motion_.carries_base() || body_motion_; }
@@ -106,7 +108,10 @@ class World::Impl {
   PlatformMotion motion_;
   std::optional<BodyMotion> body_motion_;
   Eigen::Isometry3d base_start_ = Eigen::Isometry3d::Identity();  // in platform
-  std::optional<CartPush> push_;
+  bool target_stands_ashore_;
+  Disturbances disturbances_;
+  std::optional<CartPush> push_;  // of a cart that no disturbance moves
+  double foot_hold_ = 0.0;        // N, what friction holds at a quarter of the weight
   camera_sim::TargetBox target_;
   BulletScene scene_{kTimeStep};
   CuboidBody deck_;
@@ -130,6 +135,8 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
     : motion_(config.motion, config.seed),
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
+      target_stands_ashore_(config.target_stands_ashore()),
+      disturbances_(config.disturb, config.seed),
       target_(config.placed_target()),
       deck_(scene_, "platform", to_parts({camera_sim::deck()}), {kDeck, ~kSurroundings},
             motion_.deck(0.0).pose),
@@ -153,7 +160,10 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
     arm_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
   }
-  if (target_.on_cart) push_.emplace(CartPush::draw(config.seed));
+  if (target_.on_cart && !disturbances_.moves_cart()) {
+    push_.emplace(CartPush::draw(config.seed));
+  }
+  foot_hold_ = 0.25 * config.friction * robot_.mass() * v60_gait::kGravity;
   place_robot(config);
   if (config.arm_mode == ArmMode::kServo && config.driver) {
     arm_ = std::make_unique<DriverArm>(scene_, robot_, arm_joints, *config.driver);
@@ -213,8 +223,24 @@ void World::Impl::settle() {
   [[maybe_unused]] const auto settling_contacts = contacts.take();
 }
 
+FrameState World::Impl::carrier() const {
+  if (push_) return push_->cart(time());
+  if (target_.on_cart) return disturbances_.cart(time());
+  return target_stands_ashore_ ? FrameState() : platform();
+}
+
+void World::Impl::disturb() {
+  for (const Disturbances::Force& force : disturbances_.forces()) {
+    const double share = Disturbances::share(force, time());
+    if (share <= 0.0) continue;
+    const double unit = force.unit == Disturbances::Unit::kFootHold ? foot_hold_ : 1.0;
+    push(force.link, share * unit * force.peak);
+  }
+}
+
 void World::Impl::step() {
   drive_legs();
+  disturb();
   arm_->update(time());
   ++steps_;
   if (base_carrier_) base_carrier_->move_to(carried_base());
@@ -339,6 +365,7 @@ FrameState World::frame(const std::string& link) const { return impl_->robot().f
 FrameState World::base() const { return impl_->robot().frame("base_link"); }
 FrameState World::platform() const { return impl_->platform(); }
 FrameState World::carrier() const { return impl_->carrier(); }
+const Disturbances& World::disturbances() const { return impl_->disturbances(); }
 FrameState World::tag() const { return impl_->tag(); }
 const camera_sim::TargetBox& World::target() const { return impl_->target(); }
 std::vector<Contact> World::take_contacts() { return impl_->contacts.take(); }

@@ -5,7 +5,9 @@
 #include <stdexcept>
 
 #include "motion/body_motion.hpp"
+#include "platform_sim/disturbances.hpp"
 #include "platform_sim/platform_motion.hpp"
+#include "prf_core/quoted.hpp"
 #include "prf_core/require.hpp"
 #include "v60_gait/gaits.hpp"
 
@@ -13,6 +15,7 @@ namespace platform_sim {
 namespace {
 
 const std::string kCart = "cart";
+const std::string kQuay = "quay";
 
 void require_body_motion(const std::string& path) {
   try {
@@ -35,9 +38,11 @@ void DriverModel::validate() const {
 }
 
 const std::vector<std::string>& WorldParams::scenario_names() {
-  static const std::vector<std::string> names{"treadmill", kCart};
+  static const std::vector<std::string> names{"treadmill", kCart, kQuay};
   return names;
 }
+
+bool WorldParams::target_stands_ashore() const { return scenario == kQuay; }
 
 camera_sim::TargetBox WorldParams::placed_target() const {
   camera_sim::TargetBox placed = target;
@@ -48,7 +53,7 @@ camera_sim::TargetBox WorldParams::placed_target() const {
 void WorldParams::validate() const {
   const std::vector<std::string>& scenarios = scenario_names();
   if (std::find(scenarios.begin(), scenarios.end(), scenario) == scenarios.end()) {
-    throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill or cart");
+    throw std::invalid_argument("scenario is '" + scenario + "', must be treadmill, cart or quay");
   }
   if (scenario == kCart && motion != "none") {
     throw std::invalid_argument(
@@ -56,6 +61,10 @@ void WorldParams::validate() const {
         "', must be none in the scenario cart, where nothing moves the floor");
   }
   const PlatformMotion deck_motion(motion, seed);
+  if (Disturbances(disturb, seed).moves_cart() && scenario != kCart) {
+    throw std::invalid_argument("disturb is " + prf_core::quoted(disturb) +
+                                ", a cart can be pushed in the scenario cart only");
+  }
   if (!body_motion.empty()) require_body_motion(body_motion);
   v60_gait::require_gait(gait);
   if (gait != "stand" && (deck_motion.carries_base() || !body_motion.empty())) {

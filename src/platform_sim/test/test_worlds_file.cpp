@@ -17,6 +17,14 @@ TEST(WorldsFile, NamesWhatTheSourcesName) {
   EXPECT_EQ(file["gaits"].as<Names>(), World::gait_names());
   EXPECT_EQ(file["motion_families"].as<Names>(), family_names());
   EXPECT_EQ(file["highest_motion_level"].as<double>(), kHighestLevel);
+  Names disturbances;
+  std::vector<double> highest;
+  for (const Disturbances::Kind& kind : Disturbances::kinds()) {
+    disturbances.emplace_back(kind.name);
+    highest.push_back(kind.highest);
+  }
+  EXPECT_EQ(file["disturbances"].as<Names>(), disturbances);
+  EXPECT_EQ(file["highest_levels"].as<std::vector<double>>(), highest);
 }
 
 }  // namespace

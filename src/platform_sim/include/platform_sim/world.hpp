@@ -8,6 +8,7 @@
 
 #include "camera_sim/target_box.hpp"
 #include "platform_sim/contacts.hpp"
+#include "platform_sim/disturbances.hpp"
 #include "platform_sim/frame_state.hpp"
 #include "platform_sim/world_params.hpp"
 
@@ -21,9 +22,9 @@ struct JointStates {
 };
 
 /// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform before an
-/// open box, which the platform or a cart carries. Deterministic: two worlds built alike and
-/// stepped alike are bitwise equal. At time 0 the robot has settled for 2 s
-/// on the platform, which is still at rest.
+/// open box, which the platform or a cart carries or which stands ashore. Deterministic: two worlds
+/// built alike and stepped alike are bitwise equal. At time 0 the robot has settled for 2 s on the
+/// platform, which is still at rest.
 class World {
  public:
   /// Length of a physics step, s.
@@ -49,9 +50,12 @@ class World {
   [[nodiscard]] FrameState frame(const std::string& link) const;
   [[nodiscard]] FrameState base() const;  ///< frame("base_link")
   [[nodiscard]] FrameState platform() const;
-  [[nodiscard]] FrameState carrier() const;  ///< of the box: platform() or the cart
+  [[nodiscard]] FrameState carrier()
+      const;  ///< of the box: platform(), the cart, or the shore, which rests
   [[nodiscard]] FrameState tag() const;
   [[nodiscard]] const camera_sim::TargetBox& target() const;
+
+  [[nodiscard]] const Disturbances& disturbances() const;
 
   /// Contacts since the last call, one per pair of links, in alphabetical order.
   [[nodiscard]] std::vector<Contact> take_contacts();

@@ -19,10 +19,12 @@ enum class ArmMode {
 
 struct WorldParams {
   /// treadmill: the box is fixed to the platform; cart: it is on a cart on the floor, which a hand
-  /// pushes aside (CartPush), and motion must be none.
+  /// pushes aside (once by CartPush::draw(), else as `disturb` says), and motion must be none;
+  /// quay: it stands in the world, and the robot alone is on the platform.
   std::string scenario = "treadmill";
   std::string motion = "none";  ///< see find_profile()
   std::string body_motion;      ///< CSV file: carries base_link over the deck; empty: legs do
+  std::string disturb;          ///< see Disturbances
   std::string gait = "stand";   ///< one of gait_names()
   std::uint64_t seed =
       0;  ///< of the platform's phase, the cart's push, leg sensors and placing errors
@@ -40,6 +42,7 @@ struct WorldParams {
   camera_sim::TargetBox target;
 
   [[nodiscard]] static const std::vector<std::string>& scenario_names();
+  [[nodiscard]] bool target_stands_ashore() const;
   /// The target as the scenario places it.
   [[nodiscard]] camera_sim::TargetBox placed_target() const;
   /// Throws std::invalid_argument with name, value and bound.

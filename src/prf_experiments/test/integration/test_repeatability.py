@@ -10,6 +10,8 @@ sys.path.insert(0, os.path.dirname(__file__))
 import runs
 from prf_experiments.record import digest, topics
 
+# Of every kind something, and little enough for the target to be reached.
+DISTURB = "disturb:=push_hand:20@4.5,push_body:40@5.5,stumble:1.2@5,occlude:0.2@3.5,dark:0.2@4"
 SECONDS = 12.0  # enough for every node to work and for the target to be reached
 
 
@@ -26,7 +28,7 @@ class Repeatability(unittest.TestCase):
 
     @classmethod
     def trial(cls, seed):
-        run = runs.run("run_trial", "motion:=light", f"seed:={seed}", f"time_limit:={SECONDS}",
+        run = runs.run("run_trial", "motion:=light", DISTURB, f"seed:={seed}", f"time_limit:={SECONDS}",
                        "report:=false", f"results:={cls.results}")
         if run.code != 0 or "verdict S" not in run.out:
             raise AssertionError(run.out + run.error)

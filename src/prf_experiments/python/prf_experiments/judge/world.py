@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prf_experiments import geometry
-from prf_experiments.faults import catalogue
+from prf_experiments.faults import catalogue, disturbances
 from prf_experiments.judge import reaction, target
 from prf_experiments.record.recording import Recording
 
@@ -36,7 +36,10 @@ def spans(stamps: np.ndarray, true: np.ndarray) -> Iterator[slice]:
 
 
 def box_pushed(data: Recording) -> Iterator[Happening]:
-    """The box stands still on the platform; what moves it over the floor is a push."""
+    """The box stands still on the platform; what moves it over the floor is a push. Ashore nothing
+    pushes it."""
+    if data.description.get("arguments", {}).get("scenario") == "quay":
+        return
     stamps, floor, box = target.matched(data.platform, data.tag)
     if len(stamps) <= SPEED_WINDOW:
         return
@@ -55,11 +58,26 @@ def box_pushed(data: Recording) -> Iterator[Happening]:
                             f"the {name} was pushed {way:.2f} m")
 
 
+def disturbed(data: Recording) -> Iterator[Happening]:
+    """What the simulator did to the robot. Pushes of the cart are seen by its way, above."""
+    for word, first, last, _, told in reaction.episodes(data):
+        if is_disturbance(word) and not word.startswith("cart"):
+            name = word.partition(":")[0]
+            did = ("a foot was drawn aside with" if name == "stumble" else "the robot was pushed with")
+            yield Happening(first, last, name.replace("_", " "), f"{did} {told[0] if told else word}")
+
+
+def is_disturbance(word: str) -> bool:
+    """Whether an event of a bag is the simulator's, not of the fault injector."""
+    return word.partition(":")[0] in disturbances.KINDS
+
+
 def faults(data: Recording) -> Iterator[Happening]:
     """Injected ones; what is done and undone, as kill and start again, is one."""
     found: dict[str, list[tuple[int, int]]] = {}
     for word, first, last, _, _ in reaction.episodes(data):
-        found.setdefault(word, []).append((first, last))
+        if not is_disturbance(word):
+            found.setdefault(word, []).append((first, last))
     for word, times in found.items():
         try:
             fault = catalogue.parse_one(word)
@@ -72,7 +90,8 @@ def faults(data: Recording) -> Iterator[Happening]:
             yield Happening(first, last, short, text, injected=True)
 
 
-FINDERS: tuple[Callable[[Recording], Iterator[Happening]], ...] = (box_pushed, faults)
+FINDERS: tuple[Callable[[Recording], Iterator[Happening]], ...] = (box_pushed, disturbed,
+                                                               faults)
 
 
 def events(data: Recording) -> list[Happening]:

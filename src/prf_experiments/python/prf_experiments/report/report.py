@@ -111,7 +111,7 @@ def sections(content: dict, data: recording.Recording | None,
                      [page.table([(text,) for text in violations])])] if violations else []
     found += [Section("Scene", body=[scene])] if scene else []
     if data is not None and data.fault_events:
-        found.append(Section("Faults", "Injected; shaded in the figures over time. Times in s.",
+        found.append(Section("Faults and disturbances", "Shaded in the figures over time. Times in s.",
                              [page.table(fault_rows(data),
                                          ("fault", "from", "to", "messages or acts", "what"))]))
     found += [Section(title, text, [drawing]) for title, text, drawing in drawings]

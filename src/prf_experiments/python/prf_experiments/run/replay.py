@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterator
 
 from prf_experiments import files
-from prf_experiments.faults import catalogue, wiring
+from prf_experiments.faults import catalogue, disturbances, wiring
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import connections, processes, session
@@ -36,9 +36,9 @@ def player(bag: str, log_file: str, rate: float, played: list[str]) -> Iterator[
             process.wait()
 
 
-def repeatable(text: str) -> list[catalogue.Fault]:
+def repeatable(chosen: dict) -> list[catalogue.Fault]:
     """A trial's faults; SessionError when its topics do not determine what the nodes said."""
-    faults = catalogue.parse(text)
+    faults = disturbances.all_faults(chosen)
     for fault in faults:
         if not fault.topic:
             raise session.SessionError(f"the fault {fault.word} is none of the messages: they do "
@@ -62,7 +62,7 @@ def check(bag: str) -> None:
 def replay(bag: str, folder: str, rate: float) -> str:
     """Leaves folder/replay.bag with everything that the framework publishes."""
     chosen = recording.description(bag).get("arguments", {})
-    faults = repeatable(chosen.get("fault") or "")
+    faults = repeatable(chosen)
     faulty = wiring.recorded(faults)
     links = connections.trial_links("player", simulated=False)
     play = session.Session(

@@ -8,7 +8,7 @@ import sys
 import rospkg
 
 from prf_experiments import files
-from prf_experiments.faults import catalogue, wiring
+from prf_experiments.faults import catalogue, disturbances, wiring
 from prf_experiments.judge import cause, invariants, judge, reaction
 from prf_experiments.record import recording, topics
 from prf_experiments.run import arguments as args
@@ -128,15 +128,17 @@ def skill(values: dict) -> str:
 
 def session_of(values: dict, folder: str) -> session.Session:
     """The trial as a session that leaves its bag in `folder`."""
-    faults = catalogue.parse(values["fault"])
+    faults = disturbances.all_faults(values)
+    launched = {**{name: values[name] for name in trial_arguments.LAUNCHED},
+                **disturbances.launched(values)}
     links = (connections.trial_links(SIMULATOR)
              | session.recorder_links(session.SENSOR_AND_TRUTH, SIMULATOR))
     if values["driver"]:
         links = connections.through_driver(links, SIMULATOR)
     return session.Session(
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
-        launch_arguments=[f"{name}:={args.show(values[name])}" for name in trial_arguments.LAUNCHED
-                          if values[name] is not None] + ["paused:=true"],
+        launch_arguments=[f"{name}:={args.show(value)}" for name, value in launched.items()
+                          if value is not None] + ["paused:=true"],
         topics=topics.TABLE.recorded + wiring.recorded(faults),
         links=wiring.rewired(links, faults) if faults else links,
         driver=SIMULATOR, may_end=tuple(catalogue.ended_nodes(faults)))

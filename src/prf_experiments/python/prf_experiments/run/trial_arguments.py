@@ -5,7 +5,7 @@ import os
 import re
 from collections.abc import Sequence
 
-from prf_experiments.faults import catalogue
+from prf_experiments.faults import catalogue, disturbances
 from prf_experiments.run import names
 from prf_experiments.run.arguments import (
     Argument,
@@ -31,6 +31,16 @@ def faults():
             raise ArgumentError(f"invalid fault:={text}: {error}") from None
         return text
     return {"valid": "NAME[/TARGET][:AMOUNT][@TIME]", "parse": parse}
+
+
+def disturbed():
+    def parse(text):
+        try:
+            disturbances.parse(text)
+        except disturbances.DisturbanceError as error:
+            raise ArgumentError(f"invalid disturb:={text}: {error}") from None
+        return text
+    return {"valid": "NAME:LEVEL[@TIME]", "parse": parse}
 
 
 def motions():
@@ -65,7 +75,11 @@ NAMED = {
 LAUNCHED = {
     **NAMED,
     "scenario": Argument("treadmill", **choice(*names.of_worlds("scenarios")),
-                         meaning="cart: the box is on a cart that a hand pushes aside"),
+                         meaning="cart: the box is on a cart that a hand pushes aside; quay: it "
+                         "stands ashore"),
+    "disturb": Argument("", **disturbed(),
+                        meaning="what is done to robot, cart or camera, listed below; several with "
+                        "commas"),
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),
     "method": Argument("default", **choice("default", "paper"),
@@ -118,6 +132,8 @@ def complete(values: dict, words: Sequence[str]) -> dict:
     unless `words` say it."""
     values = of_method(values)
     if values["scenario"] != "cart":
+        if disturbances.moves_cart(values["disturb"]):
+            raise ArgumentError(f"disturb:={values['disturb']} pushes a cart, valid: scenario:=cart")
         return values
     asked = [word for word in words if word.startswith("motion:=")]
     if asked and values["motion"] != "none":
@@ -163,5 +179,5 @@ def name(values: dict) -> str:
 
 
 def usage() -> str:
-    """All arguments and all faults, for people."""
-    return arguments_usage(TRIAL) + "\n" + catalogue.usage()
+    """All arguments, disturbances and faults, for people."""
+    return "\n".join([arguments_usage(TRIAL), disturbances.usage(), catalogue.usage()])
