@@ -118,8 +118,8 @@ def all_faults(values: dict) -> list[catalogue.Fault]:
 def launched(values: dict) -> dict:
     """What trial.launch gets in place of `fault` and `disturb`."""
     faults = all_faults(values)
-    given = {"fault": ",".join(fault.word for fault in faults),
-             "disturb": simulated(values["disturb"])}
+    given: dict[str, str | float] = {"fault": ",".join(fault.word for fault in faults),
+                                     "disturb": simulated(values["disturb"])}
     if all(fault.name in LOSES_NOTHING for fault in faults):
         given["patience"] = 0.0  # every response comes
     return given

@@ -84,3 +84,20 @@ def lines(series: dict[str, tuple[Sequence[float], Sequence[float]]], x_label: s
         panel.y_range.start = 0.0
     plots.legend_above(panel, 2)
     return plots.embedded([[panel]], description)
+
+
+def rates(panels: dict[str, dict[str, list[tuple[float, float, float, float]]]], x_label: str,
+          description: str) -> Markup:
+    """A panel for each y label: {y label: {name: [(x, rate, low, high)]}}, with whiskers."""
+    made = []
+    for y_label, series in panels.items():
+        panel = plots.panel(y_label, 260, None, x_label)
+        for row, (name, points) in enumerate(series.items()):
+            x, y, low, high = (list(column) for column in zip(*points))
+            plots.add_line(panel, x, y, name, line_width=1.8, color=COLOURS[row % 4],
+                           line_dash=DASHES[row % 4])
+            panel.segment(x, low, x, high, color=COLOURS[row % 4], line_width=1.0, alpha=0.6)
+        panel.y_range.start, panel.y_range.end = -0.02, 1.02
+        plots.legend_above(panel, 4)
+        made.append([panel])
+    return plots.embedded(made, description)

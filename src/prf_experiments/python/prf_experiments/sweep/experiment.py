@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from prf_experiments.run import arguments as args
 from prf_experiments.run import trial_arguments
+from prf_experiments.sweep import severity
 
 EXIT_OK, EXIT_USAGE, EXIT_INVALID = 0, 2, 3
 STUDIES = {
@@ -19,11 +20,26 @@ STUDIES = {
     "ablate": "predictor, decision, planner and approach under heavy motion, stepping",
     "cart": "the box is pushed aside during the execution",
     "faults": "every fault injected, standing and stepping: verdict, time to hold and to recover",
+    "limits": "families of worlds with rising severity: where the framework breaks, and its parts",
     "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",
 }
 SOAK = ("executions again and again under heavy motion, stepping, with faults at random: memory, "
         "recoveries, drift")
 SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
+
+
+def families(text: str) -> list[str]:
+    unknown = [name for name in text.split(",") if name not in severity.LEVELS]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is no family, must be of {', '.join(severity.LEVELS)}")
+    return text.split(",")
+
+
+def levels(text: str) -> list[float]:
+    found = [float(word) for word in text.split(",")]
+    if not all(0.0 <= level <= 200.0 for level in found):
+        raise argparse.ArgumentTypeError(f"{text} is not a list of levels")
+    return found
 
 
 def positive(text: str) -> int:
@@ -87,6 +103,12 @@ def parser() -> args.Parser:
         sweep.add_argument("--json", metavar="FILE", help="writes the numbers there too")
         sweep.add_argument("--results-page", metavar="FILE.md",
                            help="writes the table there with the command that gives it")
+        if name == "limits":
+            sweep.add_argument("--family", type=families, metavar="NAME,...",
+                               help="[heavy,sea,bursts,cart,push]; or stop, cart_toward, push_hand, push_body, "
+                               "stumble, occlude, dark")
+            sweep.add_argument("--levels", type=levels, metavar="L,...",
+                               help="of every family, in place of each one's own")
     return result
 
 
@@ -103,7 +125,7 @@ def refuse_unknown(words: Sequence[str], experiment: str | None) -> None:
     guesses = [f"{name}:={text}"] if name in SWEEP_ARGUMENTS else []
     if experiment in STUDIES and words[0].startswith("--"):
         near = args.meant(words[0], "--seeds", "--jobs", "--keep-bags", "--scheduler", "--name",
-                          "--any-version", "--json", "--results-page")
+                          "--any-version", "--json", "--results-page", "--family", "--levels")
         guesses += [near[len("; did you mean "):-1] + (f" {text}" if text else "")] if near else []
     guess = f"; did you mean {' or '.join(guesses)}?" if guesses else args.meant(name, *SWEEP_ARGUMENTS)
     raise args.ArgumentError(f"unknown option {words[0]}{guess} (--help lists them)")

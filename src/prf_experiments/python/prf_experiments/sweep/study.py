@@ -33,6 +33,8 @@ class Study:
     keep_bags: str = "failed"
     may_be_invalid: Callable = lambda arguments: False  # where INVALID is what should come out
     conclude: Callable = lambda summary: ""  # summary -> one sentence for the page
+    # options -> [{argument: value}]: what goes together, where the axes' product is not what is meant
+    conditions: Callable = lambda options: [{}]
 
 
 def trials(study: Study, options: argparse.Namespace) -> list[dict]:
@@ -49,7 +51,9 @@ def trials(study: Study, options: argparse.Namespace) -> list[dict]:
         else:
             fixed[name] = chosen[0]
     found: list[dict] = []
-    for trial_values in map(trial_arguments.of_method, sweep.product(fixed, axes)):
+    chosen = [values for condition in study.conditions(options)
+              for values in sweep.product({**fixed, **condition}, axes)]
+    for trial_values in map(trial_arguments.of_method, chosen):
         if trial_values not in found:  # method:=paper may make two of them the same
             found.append(trial_values)
     return found
@@ -140,8 +144,11 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
 
 def reproducing(options: argparse.Namespace, named: Sequence[str]) -> str:
     """The command with what its numbers depend on, and nothing else."""
-    seeds = [f"--seeds {options.seeds}"] if options.seeds else []
-    return " ".join(["./run_experiment", options.experiment, *seeds,
+    chosen = [f"--seeds {options.seeds}"] if options.seeds else []
+    for name in ("family", "levels"):
+        if given := getattr(options, name, None):
+            chosen.append(f"--{name} " + ",".join(f"{one:g}" if name == "levels" else one for one in given))
+    return " ".join(["./run_experiment", options.experiment, *chosen,
                      *(word for word in named if not word.startswith("results:="))])
 
 
