@@ -70,7 +70,7 @@ TEST(PostureMotion, KeepsClearOfALimit) {
     if (solution.branch == 0) there = solution.q[5] - lower;
   }
   ASSERT_LT(there, 0.25);
-  EXPECT_GT(drifted(start, 20.0)[5] - lower, there + 0.05);
+  EXPECT_GT(drifted(start, 20.0)[5] - lower, 0.32);
 }
 
 }  // namespace

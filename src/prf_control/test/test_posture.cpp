@@ -19,16 +19,17 @@ JointVector in_front() {
 }
 
 // The target's sway as the arm's base sees it on the heavy platform, 0.15 m/s and 0.1 rad/s rms.
-// Its closed loops turn the arm angle a little each, always the same way.
+// Its closed loops turn the arm angle a little each, always the same way: without the drift the
+// elbow is upright and the hand 31 mm rms behind after 100 s.
 PoseSetpoint on_the_platform(double time) {
   const auto sway = [&](double amplitude, double frequency, double phase) {
     return std::pair{amplitude * std::sin(frequency * time + phase),
                      amplitude * frequency * std::cos(frequency * time + phase)};
   };
-  const auto x = sway(0.09, 1.7, 0.0);
-  const auto y = sway(0.10, 2.0, 1.2);
-  const auto z = sway(0.05, 1.7, 2.5);
-  const auto pitch = sway(0.08, 1.7, 0.8);
+  const auto x = sway(0.09, 1.7, 4.16);
+  const auto y = sway(0.10, 1.7, 5.47);
+  const auto z = sway(0.05, 1.7, 5.10);
+  const auto pitch = sway(0.08, 1.7, 2.35);
   PoseSetpoint setpoint;
   setpoint.hand_in_base = forward(in_front());
   setpoint.hand_in_base.translation() += Eigen::Vector3d(x.first, y.first, z.first);
@@ -69,7 +70,7 @@ TEST(Posture, StaysWhileTheHandFollowsThePlatformForLong) {
   (void)follow(&follower, 30.0, 70.0);
   const Deviation last = follow(&follower, 100.0, 20.0);
   EXPECT_LE(last.rms, 1.1 * first.rms + 1e-3);
-  EXPECT_LE(last.most, 0.03);
+  EXPECT_LE(last.most, 0.005);
   RecordProperty("first_um", static_cast<int>(1e6 * first.rms));
   RecordProperty("last_um", static_cast<int>(1e6 * last.rms));
 }
