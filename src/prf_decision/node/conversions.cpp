@@ -54,7 +54,8 @@ std::string missing_joints(const RobotNames& robot, const sensor_msgs::JointStat
   return missing;
 }
 
-std::optional<Pose> measured_hand(const RobotNames& robot, const sensor_msgs::JointState& joints) {
+std::optional<jaco_kinematics::JointVector> measured_joints(
+    const RobotNames& robot, const sensor_msgs::JointState& joints) {
   constexpr double kMostTurns = 100;  // rad; beyond it the angle's sine means nothing
   if (!missing_joints(robot, joints).empty()) return std::nullopt;
   jaco_kinematics::JointVector q;
@@ -62,7 +63,7 @@ std::optional<Pose> measured_hand(const RobotNames& robot, const sensor_msgs::Jo
     if (const auto joint = arm_joint(robot, joints.name[i])) q[*joint] = joints.position[i];
   }
   if (!(q.cwiseAbs().maxCoeff() <= kMostTurns) || !q.allFinite()) return std::nullopt;
-  return prf_core::pose_from(jaco_kinematics::forward(q));
+  return q;
 }
 
 ControlReport to_core(const prf_msgs::ControlStatus& message) {

@@ -24,9 +24,9 @@ namespace prf_decision {
 // The joints of the arm that a message lacks, as "j1, j2"; empty: it has them all.
 [[nodiscard]] std::string missing_joints(const RobotNames& robot,
                                          const sensor_msgs::JointState& joints);
-// The measured hand; none when a joint of the arm is missing, not finite or absurd.
-[[nodiscard]] std::optional<Pose> measured_hand(const RobotNames& robot,
-                                                const sensor_msgs::JointState& joints);
+// The arm's joints, rad; none when one is missing, not finite or absurd.
+[[nodiscard]] std::optional<jaco_kinematics::JointVector> measured_joints(
+    const RobotNames& robot, const sensor_msgs::JointState& joints);
 
 [[nodiscard]] ControlReport to_core(const prf_msgs::ControlStatus& message);
 

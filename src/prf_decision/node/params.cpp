@@ -65,6 +65,8 @@ DecisionParams load_decision(prf_ros::PrivateParameters& values) {
   params.dwell_time = seconds("dwell_time");
   params.time_limit = seconds("time_limit");
   params.guards = load_guards(values);
+  const auto arm = values.numbers("arm_limits", 2);
+  params.arm = {arm[0], arm[1]};
   return params;
 }
 

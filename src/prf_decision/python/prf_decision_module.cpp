@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The HMM for Python: the same code that the node runs. A run is an (n, 3) array of velocities, a
-// row of NaN where the target was not measured, and n labels 0, 1, 2 or -1 (not known).
+// row of NaN where the target was not measured, and n labels 0, 1, 2 or -1 (not known). A fourth
+// column is the spread, a fifth the deviation (NaN: not known).
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "prf_decision/hmm.hpp"
@@ -18,18 +21,37 @@ namespace py = pybind11;
 namespace prf_decision {
 namespace {
 
-using Velocities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Labels = std::vector<int>;
 
-Sequence to_core(const Velocities& velocities, const Labels& labels) {
+std::optional<ObservedMotion> observed(const Rows& motions, Eigen::Index k) {
+  if (motions.row(k).head<3>().array().isNaN().all()) return std::nullopt;
+  ObservedMotion observed;
+  observed.velocity = motions.row(k).head<3>().transpose();
+  if (motions.cols() > 3) observed.spread = motions(k, 3);
+  if (motions.cols() > 4 && !std::isnan(motions(k, 4))) observed.deviation = motions(k, 4);
+  return observed;
+}
+
+void require_columns(const Rows& motions) {
+  if (motions.cols() >= 3 && motions.cols() <= 5) return;
+  throw std::invalid_argument("velocities have " + std::to_string(motions.cols()) +
+                              " columns, must be 3 to 5: velocity, spread, deviation");
+}
+
+Sequence to_core(const Rows& velocities, const Labels& labels) {
+  require_columns(velocities);
   if (!labels.empty() && static_cast<Eigen::Index>(labels.size()) != velocities.rows()) {
     throw std::invalid_argument("labels has " + std::to_string(labels.size()) + " values for " +
                                 std::to_string(velocities.rows()) + " velocities");
   }
   Sequence run(static_cast<std::size_t>(velocities.rows()));
   for (std::size_t k = 0; k < run.size(); ++k) {
-    const Eigen::Vector3d velocity = velocities.row(static_cast<Eigen::Index>(k)).transpose();
-    if (!velocity.array().isNaN().all()) run[k].velocity = velocity;
+    if (const auto motion = observed(velocities, static_cast<Eigen::Index>(k))) {
+      run[k].velocity = motion->velocity;
+      run[k].spread = motion->spread;
+      run[k].deviation = motion->deviation;
+    }
     if (labels.empty() || labels[k] == -1) continue;
     if (labels[k] < 0 || labels[k] > 2) {
       throw std::invalid_argument("label " + std::to_string(k) + " is " +
@@ -40,7 +62,7 @@ Sequence to_core(const Velocities& velocities, const Labels& labels) {
   return run;
 }
 
-std::vector<Sequence> to_core(const std::vector<std::pair<Velocities, Labels>>& runs) {
+std::vector<Sequence> to_core(const std::vector<std::pair<Rows, Labels>>& runs) {
   std::vector<Sequence> result;
   for (const auto& [velocities, labels] : runs) result.push_back(to_core(velocities, labels));
   return result;
@@ -53,19 +75,28 @@ Labels to_python(const std::vector<Intent>& states) {
 }
 
 // The posterior after each observation, as the node filters it, and ln P of all.
-std::pair<Velocities, double> filter(const HmmParams& parameters, const Velocities& velocities) {
+std::pair<Rows, double> filter(const HmmParams& parameters, const Rows& velocities) {
+  require_columns(velocities);
   const HmmFilter hmm(parameters);
   HmmBelief belief = hmm.initial_belief();
-  Velocities posterior(velocities.rows(), 3);
+  Rows posterior(velocities.rows(), 3);
   for (Eigen::Index k = 0; k < velocities.rows(); ++k) {
-    const Eigen::Vector3d velocity = velocities.row(k).transpose();
-    belief = velocity.array().isNaN().all() ? hmm.predict(belief) : hmm.observe(belief, {velocity});
+    const auto motion = observed(velocities, k);
+    belief = motion ? hmm.observe(belief, *motion) : hmm.predict(belief);
     posterior.row(k) = belief.posterior.transpose();
   }
   return {posterior, belief.log_likelihood};
 }
 
-LearningResult learn_runs(const std::vector<std::pair<Velocities, Labels>>& runs, int restarts,
+// Mean and sigma of each state; none: not observed.
+std::optional<std::vector<std::pair<double, double>>> deviation_of(const HmmParams& parameters) {
+  if (!parameters.deviation) return std::nullopt;
+  std::vector<std::pair<double, double>> values;
+  for (const auto& [mean, sigma] : *parameters.deviation) values.emplace_back(mean, sigma);
+  return values;
+}
+
+LearningResult learn_runs(const std::vector<std::pair<Rows, Labels>>& runs, int restarts,
                           std::uint32_t seed, bool free_means, const OnIteration& on_iteration) {
   LearningParams options;
   options.restarts = restarts;
@@ -87,6 +118,7 @@ PYBIND11_MODULE(prf_decision, module) {
       .def_readwrite("transition", &HmmParams::transition)
       .def_readwrite("mean", &HmmParams::mean)
       .def_readwrite("covariance", &HmmParams::covariance)
+      .def_property_readonly("deviation", &deviation_of)
       .def("validate", &HmmParams::validate);
   py::class_<LearningResult>(module, "LearningResult")
       .def_readonly("parameters", &LearningResult::parameters)
@@ -100,7 +132,7 @@ PYBIND11_MODULE(prf_decision, module) {
   module.def("filter", &filter, py::arg("parameters"), py::arg("velocities"));
   module.def(
       "most_probable_path",
-      [](const HmmParams& parameters, const Velocities& velocities) {
+      [](const HmmParams& parameters, const Rows& velocities) {
         const ViterbiResult path = most_probable_path(parameters, to_core(velocities, {}));
         return std::pair(to_python(path.states), path.log_probability);
       },
@@ -111,7 +143,7 @@ PYBIND11_MODULE(prf_decision, module) {
       "draw",
       [](const HmmParams& parameters, std::size_t observations, std::uint32_t seed) {
         const Sequence run = draw(parameters, observations, seed);
-        Velocities velocities(static_cast<Eigen::Index>(run.size()), 3);
+        Rows velocities(static_cast<Eigen::Index>(run.size()), 3);
         std::vector<Intent> states;
         for (std::size_t k = 0; k < run.size(); ++k) {
           velocities.row(static_cast<Eigen::Index>(k)) = run[k].velocity->transpose();

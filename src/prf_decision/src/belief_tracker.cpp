@@ -9,9 +9,10 @@ namespace prf_decision {
 BeliefTracker::BeliefTracker(const HmmParams& params)
     : hmm_(params), belief_(hmm_.initial_belief()) {}
 
-void BeliefTracker::update(const std::vector<ForecastArrival>& forecasts) {
+void BeliefTracker::update(const std::vector<ForecastArrival>& forecasts, ShadowArm* shadow) {
   for (const auto& [stamp, forecast] : forecasts) {
-    const auto observed = forecast ? observer_.observe(*forecast) : std::nullopt;
+    auto observed = forecast ? observer_.observe(*forecast) : std::nullopt;
+    if (observed && shadow) observed->deviation = shadow->observe(*forecast);
     const bool was_reset = belief_.was_reset;
     if (observed) speed_ = std::hypot(observed->velocity.stableNorm(), observed->spread);
     belief_ = observed ? hmm_.observe(belief_, *observed) : hmm_.predict(belief_);

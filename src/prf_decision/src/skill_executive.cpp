@@ -36,6 +36,7 @@ void DecisionParams::validate() const {
   reference.validate();
   guards.validate();
   hmm.validate();
+  arm.validate();
 }
 
 void SkillGoal::validate() const {
@@ -46,7 +47,10 @@ void SkillGoal::validate() const {
 }
 
 SkillExecutive::SkillExecutive(const DecisionParams& params)
-    : params_(validated(params)), belief_(params.hmm), reference_(params.reference) {
+    : params_(validated(params)),
+      belief_(params.hmm),
+      shadow_(params.arm),
+      reference_(params.reference) {
   if (params_.autostart) goals_.next = SkillGoal();
 }
 
@@ -71,7 +75,8 @@ ExecutiveResult SkillExecutive::update(const Tick& tick) {
   goals_.refusal.clear();
   // The planner's result is for the last tick: before this one's forecasts.
   if (tick.plan_result) receive_plan(*tick.plan_result);
-  belief_.update(tick.forecasts);
+  belief_.update(tick.forecasts, &shadow_);
+  step_shadow(tick);
   following_.update(params_.guards.following, {tick.stamp, last_setpoint_, tick.hand, tick.control,
                                                tick.control_silent, moves_arm()});
   end_unanswered_request(tick.stamp);
@@ -203,6 +208,13 @@ const TargetForecast* SkillExecutive::followed_forecast(const Tick& tick) const 
       input.forecast && !input.forecast_silent && !input.forecast->predictions.empty() &&
       !check_status(params_.guards, input) && !check_forecast(params_.guards, input);
   return usable ? input.forecast : nullptr;
+}
+
+void SkillExecutive::step_shadow(const Tick& tick) {
+  if (adapts_once()) return;
+  if (const Trajectory* plan = reference_.plan()) shadow_.set_goal(plan->goal_in_target);
+  shadow_.step(tick.stamp, tick.stamp - *last_tick_, params_.reference.lead,
+               followed_forecast(tick), tick.joints);
 }
 
 std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation) {

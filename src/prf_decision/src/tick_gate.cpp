@@ -45,10 +45,11 @@ void TickGate::begin_at(Stamp first_tick) {
   forecasts_.clock().restart(left.empty() ? std::nullopt : std::optional(left.back().stamp));
 }
 
-PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand) {
+PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand,
+                               const std::optional<jaco_kinematics::JointVector>& joints) {
   const bool new_run = ticks_.clock().classify(stamp) == StampOrder::kBackwardJump;
   if (new_run) begin_new_run();
-  const StampOrder order = ticks_.push(stamp, hand);
+  const StampOrder order = ticks_.push(stamp, {hand, joints});
   if (order == StampOrder::kFarAhead) return PushResult::kFarAhead;
   if (!prf_core::is_accepted(order)) return PushResult::kOld;
   if (!first_tick_) begin_at(stamp);
@@ -127,7 +128,9 @@ std::optional<Tick> TickGate::next() {
       control_report_is_due(tick.stamp) && !control_silence_.gives_up(tick.stamp, newest);
   if (waits_for_forecast || waits_for_plan || waits_for_report) return std::nullopt;
 
-  tick.hand = ticks_.pop_until(tick.stamp)->message;
+  const MeasuredArm measured = ticks_.pop_until(tick.stamp)->message;
+  tick.hand = measured.hand;
+  tick.joints = measured.joints;
   while (auto forecast = forecasts_.pop_until(tick.stamp - params_.pipeline_delay)) {
     tick.forecasts.push_back(std::move(forecast->message));
   }

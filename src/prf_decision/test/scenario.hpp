@@ -90,6 +90,7 @@ inline DecisionParams usual_params() {
   parameters.reference.catch_up = {0.2, 0.5, 0.1};
   parameters.guards = usual_guards();
   parameters.hmm = usual_hmm();
+  parameters.arm = {0.95, 4.0};
   return parameters;
 }
 

@@ -58,7 +58,7 @@ class WhatTrainHmmReads(unittest.TestCase):
                                               (1, ExecutionProgress.REVERSE)]
         statuses = [TargetForecast.TRACKING] * 7 + [TargetForecast.COASTING]
         write_bag(self.bag, range(10, 18), statuses, progress)
-        velocities, labels = train_hmm.read_run(self.bag, "progress")
+        velocities, labels = train_hmm.read_bag(self.bag, "progress")
         self.assertEqual(velocities[:7].tolist(), [[k, 0, 0] for k in range(7)])
         self.assertTrue(all(map(math.isnan, velocities[7])))
         forward, pause, reverse, unknown = 0, 1, 2, -1
@@ -69,12 +69,12 @@ class WhatTrainHmmReads(unittest.TestCase):
         write_bag(self.bag, [10, 11, 12, 13, 14], [TargetForecast.TRACKING] * 5, [])
         with open(self.table, "w", encoding="utf-8") as file:
             file.write("time_s,label\n1,pause\n2.5,reverse\n4,none\n")
-        self.assertEqual(train_hmm.read_run(self.bag, "csv")[1], [-1, 1, 1, 2, -1])
+        self.assertEqual(train_hmm.read_bag(self.bag, "csv")[1], [-1, 1, 1, 2, -1])
 
     def test_refuses_forecasts_whose_stamps_do_not_rise(self):
         write_bag(self.bag, [10, 12, 11], [TargetForecast.TRACKING] * 3, [])
         with self.assertRaisesRegex(ValueError, "stamps of target/forecast do not rise"):
-            train_hmm.read_run(self.bag, "progress")
+            train_hmm.read_bag(self.bag, "progress")
 
     def test_confusion_counts_labels_in_rows_and_of_equally_probable_states_the_more_cautious(self):
         model = prf_decision.load_hmm(HMM)

@@ -9,6 +9,7 @@
 
 #include "prf_decision/hmm.hpp"
 #include "prf_decision/motion_observer.hpp"
+#include "prf_decision/shadow_arm.hpp"
 #include "prf_decision/tick_gate.hpp"
 
 namespace prf_decision {
@@ -19,8 +20,8 @@ class BeliefTracker {
   explicit BeliefTracker(const HmmParams& params);
 
   // One step of the HMM for each forecast: an observation where there is one, else a prediction,
-  // also for a refused (null) forecast.
-  void update(const std::vector<ForecastArrival>& forecasts);
+  // also for a refused (null) forecast. With a shadow arm its deviations are observed, too.
+  void update(const std::vector<ForecastArrival>& forecasts, ShadowArm* shadow = nullptr);
 
   [[nodiscard]] Intent intent() const { return most_probable(belief_); }
   [[nodiscard]] const Eigen::Vector3d& posterior() const { return belief_.posterior; }

@@ -26,6 +26,7 @@ struct DecisionParams {
   ReferenceParams reference;
   GuardParams guards;
   HmmParams hmm;
+  ArmLimits arm;
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
@@ -116,10 +117,12 @@ class SkillExecutive {
   void change_state(const Tick& tick, const Assessment& assessment);
   [[nodiscard]] const TargetForecast* followed_forecast(const Tick& tick) const;
   [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool violation);
+  void step_shadow(const Tick& tick);
   [[nodiscard]] Progress progress(const Tick& tick) const;
 
   DecisionParams params_;
   BeliefTracker belief_;
+  ShadowArm shadow_;
   PlanReceiver plans_;
   FollowingMonitor following_;
   Assessor assessor_;

@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <memory>
 #include <optional>
 #include <prf_core/stream.hpp>
@@ -59,6 +60,7 @@ struct ForecastArrival {
 struct Tick {
   Stamp stamp{0};
   std::optional<Pose> hand;                // as measured; none: not known
+  std::optional<jaco_kinematics::JointVector> joints = {};  // that it was measured by
   std::vector<ForecastArrival> forecasts;  // used from this tick on, in order
   std::optional<PlanResult> plan_result;   // used from this tick on, the newest one
   std::optional<ControlReport> control;    // the newest one that may be used, also an earlier one
@@ -78,7 +80,8 @@ class TickGate {
  public:
   explicit TickGate(const GateParams& params);
 
-  PushResult push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt);
+  PushResult push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt,
+                       const std::optional<jaco_kinematics::JointVector>& joints = std::nullopt);
   PushResult push_forecast(ForecastArrival arrival);
   PushResult push_plan_result(PlanResult result);
   PushResult push_control_report(ControlReport report);
@@ -104,7 +107,11 @@ class TickGate {
 
   GateParams params_;
   // The ticks alone begin a new run.
-  prf_core::StampedQueue<std::optional<Pose>> ticks_;
+  struct MeasuredArm {
+    std::optional<Pose> hand;
+    std::optional<jaco_kinematics::JointVector> joints;
+  };
+  prf_core::StampedQueue<MeasuredArm> ticks_;
   prf_core::StampedQueue<ForecastArrival> forecasts_{{Duration::max(), kClockJump}};
   prf_core::StampedQueue<PlanResult> plan_results_{{Duration::max(), Duration::max()}};
   prf_core::StampedQueue<ControlReport> control_reports_{{Duration::max(), Duration::max()}};

@@ -18,6 +18,9 @@ constexpr double kSymmetryTolerance = 1e-12;  // m^2/s^2, rounding of a product 
 constexpr double kMinVariance = 1e-8;         // (0.1 mm/s)^2, far below any sensor's noise
 constexpr double kMaxVariance = kMaxObservedSpeed * kMaxObservedSpeed;
 
+constexpr double kMaxLogDeviation = 20;                // far beyond ln of any length here
+constexpr double kMinLogSigma = 1e-3;                  // a thousandth of the deviation
+
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream message;
@@ -48,6 +51,22 @@ void validate_covariance(const Eigen::Matrix3d& covariance, const std::string& n
   }
   if (!(eigenvalues[2] <= kMaxVariance)) {
     refuse(name, " has largest eigenvalue ", eigenvalues[2], ", must be at most ", kMaxVariance);
+  }
+}
+
+void validate_deviations(const std::array<LogDeviation, kIntents>& deviations) {
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const std::string name = std::string("deviation.") + kIntentNames[i];
+    const auto& [mean, sigma] = deviations[i];
+    if (!(std::abs(mean) <= kMaxLogDeviation)) {
+      refuse(name, "[0] is ", mean, ", must be within +-", kMaxLogDeviation);
+    }
+    if (!(sigma >= kMinLogSigma && sigma <= kMaxLogDeviation)) {
+      refuse(name, "[1] is ", sigma, ", must be in ", kMinLogSigma, " .. ", kMaxLogDeviation);
+    }
+    if (i > 0 && !(mean > deviations[i - 1].mean)) {
+      refuse(name, "[0] is ", mean, ", must be above that of ", kIntentNames[i - 1]);
+    }
   }
 }
 
@@ -88,13 +107,20 @@ void HmmParams::validate() const {
     }
     slower = speed;
   }
+  if (deviation) validate_deviations(*deviation);
+}
+
+double log_deviation(double deviation) {
+  if (!(deviation >= 0)) refuse("deviation = ", deviation, ", must be >= 0 m");
+  return std::log(std::min(deviation, kMaxDeviation) + kLeastDeviation);
 }
 
 double mean_square_speed(const HmmParams& parameters, std::size_t state) {
   return parameters.mean[state].squaredNorm() + parameters.covariance[state].trace();
 }
 
-EmissionModel::EmissionModel(const HmmParams& parameters) : mean_(parameters.mean) {
+EmissionModel::EmissionModel(const HmmParams& parameters)
+    : mean_(parameters.mean), deviation_(parameters.deviation) {
   for (std::size_t i = 0; i < kIntents; ++i) {
     validate_covariance(parameters.covariance[i], std::string("covariance.") + kIntentNames[i]);
     const Eigen::Matrix3d lower = parameters.covariance[i].llt().matrixL();
@@ -123,8 +149,16 @@ Eigen::Vector3d EmissionModel::log_density(const ObservedMotion& observation) co
   const double speed = observation.velocity.stableNorm();
   const double cut = speed > kMaxObservedSpeed ? kMaxObservedSpeed / speed : 1.0;
   const double spread = std::min(observation.spread, kMaxObservedSpeed);
-  return log_density(Eigen::Vector3d(cut * observation.velocity)) -
-         spread * spread / 6 * precision_trace_;
+  Eigen::Vector3d result = log_density(Eigen::Vector3d(cut * observation.velocity)) -
+                           spread * spread / 6 * precision_trace_;
+  if (!deviation_ || !observation.deviation) return result;
+  const double x = log_deviation(*observation.deviation);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const auto& [mean, sigma] = (*deviation_)[i];
+    const double off = (x - mean) / sigma;
+    result[static_cast<Eigen::Index>(i)] -= 0.5 * (off * off + std::log(2 * M_PI)) + std::log(sigma);
+  }
+  return result;
 }
 
 bool is_distribution(const Eigen::Vector3d& values) {

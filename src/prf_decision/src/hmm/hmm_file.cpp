@@ -17,11 +17,14 @@ using Keys = std::initializer_list<const char*>;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
-void require_keys(const YAML::Node& map, const std::string& name, const Keys& keys) {
+void require_keys(const YAML::Node& map, const std::string& name, const Keys& keys,
+                  const std::string& optional = "") {
   if (!map.IsMap()) refuse(name + " is not a map of keys");
   for (const auto& entry : map) {
     const auto key = entry.first.as<std::string>();
-    if (std::none_of(keys.begin(), keys.end(), [&](const char* known) { return key == known; })) {
+    const bool known = std::any_of(keys.begin(), keys.end(),
+                                   [&](const char* one) { return key == one; });
+    if (!known && (optional.empty() || key != optional)) {
       refuse("unknown key '" + key + "' in " + name);
     }
   }
@@ -63,13 +66,24 @@ Eigen::Matrix3d matrix(const YAML::Node& node, const std::string& name) {
   return rows;
 }
 
+LogDeviation log_deviation_of(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence() || node.size() != 2) {
+    refuse(name + " is " + YAML::Dump(node) + ", must be a list of 2");
+  }
+  return {number(node[0], name + "[0]"), number(node[1], name + "[1]")};
+}
+
 HmmParams parse(const YAML::Node& root) {
   const Keys intents{kIntentNames[0], kIntentNames[1], kIntentNames[2]};
-  require_keys(root, "the file", {"initial", "transition", "mean", "covariance"});
+  require_keys(root, "the file", {"initial", "transition", "mean", "covariance"}, "deviation");
   for (const char* key : {"initial", "transition", "mean", "covariance"}) {
     require_keys(root[key], key, intents);
   }
   HmmParams parameters;
+  if (root["deviation"]) {
+    require_keys(root["deviation"], "deviation", intents);
+    parameters.deviation.emplace();
+  }
   for (std::size_t i = 0; i < kIntents; ++i) {
     const std::string intent = kIntentNames[i];
     const auto row = static_cast<Eigen::Index>(i);
@@ -78,6 +92,10 @@ HmmParams parse(const YAML::Node& root) {
         vector(root["transition"][intent], "transition." + intent).transpose();
     parameters.mean[i] = vector(root["mean"][intent], "mean." + intent);
     parameters.covariance[i] = matrix(root["covariance"][intent], "covariance." + intent);
+    if (parameters.deviation) {
+      (*parameters.deviation)[i] =
+          log_deviation_of(root["deviation"][intent], "deviation." + intent);
+    }
   }
   parameters.validate();
   return parameters;
@@ -126,6 +144,13 @@ std::string hmm_text(const HmmParams& parameters, const std::string& comment) {
       const Eigen::RowVector3d values = parameters.covariance[i].row(row);
       text << "    - " << values.format(kList) << '\n';
     }
+  }
+  if (!parameters.deviation) return text.str();
+  text << "\n# ln(deviation of the shadow arm's hand + 0.003 m): mean and standard deviation.\n"
+       << "deviation:\n";
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const auto& [mean, sigma] = (*parameters.deviation)[i];
+    text << "  " << kIntentNames[i] << ": [" << mean << ", " << sigma << "]\n";
   }
   return text.str();
 }

@@ -24,11 +24,26 @@ template <typename Visit>
 void for_each_velocity(const std::vector<Sequence>& runs, const Visit& visit) {
   for (std::size_t run = 0; run < runs.size(); ++run) {
     for (std::size_t k = 0; k < runs[run].size(); ++k) {
-      if (runs[run][k].velocity) {
-        visit(run, static_cast<Eigen::Index>(k), *runs[run][k].velocity);
-      }
+      const Observation& o = runs[run][k];
+      if (o.velocity) visit(run, static_cast<Eigen::Index>(k), *o.velocity, o.spread);
     }
   }
+}
+
+template <typename Visit>
+void for_each_deviation(const std::vector<Sequence>& runs, const Visit& visit) {
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    for (std::size_t k = 0; k < runs[run].size(); ++k) {
+      const Observation& o = runs[run][k];
+      if (!o.velocity || !o.deviation) continue;
+      visit(run, static_cast<Eigen::Index>(k), log_deviation(*o.deviation));
+    }
+  }
+}
+
+// E d d^T of the velocities that an observation stands for.
+Eigen::Matrix3d moment_of(const Eigen::Vector3d& d, double spread) {
+  return d * d.transpose() + spread * spread / 3 * Eigen::Matrix3d::Identity();
 }
 
 bool any_label(const std::vector<Sequence>& runs) {
@@ -56,8 +71,8 @@ Eigen::Matrix3d row_fractions(const Eigen::Matrix3d& counts, const Eigen::Matrix
 Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double count = 0;
-  for_each_velocity(runs, [&](std::size_t, Eigen::Index, const Eigen::Vector3d& o) {
-    sum += o * o.transpose();
+  for_each_velocity(runs, [&](std::size_t, Eigen::Index, const Eigen::Vector3d& o, double spread) {
+    sum += moment_of(o, spread);
     count += 1;
   });
   if (count < kIntents * kLeastObservations) {
@@ -65,6 +80,22 @@ Eigen::Matrix3d pooled_moment(const std::vector<Sequence>& runs) {
                                 " velocities, must be at least 12");
   }
   return sum / count;
+}
+
+// Of all deviations, the states one sigma apart; none without deviations.
+std::optional<std::array<LogDeviation, kIntents>> first_deviations(
+    const std::vector<Sequence>& runs) {
+  double count = 0, sum = 0, squares = 0;
+  for_each_deviation(runs, [&](std::size_t, Eigen::Index, double x) {
+    count += 1;
+    sum += x;
+    squares += x * x;
+  });
+  if (count < kIntents * kLeastObservations) return std::nullopt;
+  const double mean = sum / count;
+  const double sigma = std::max(std::sqrt(std::max(squares / count - mean * mean, 0.0)), 0.01);
+  return std::array{LogDeviation{mean - sigma, sigma}, LogDeviation{mean, sigma},
+                    LogDeviation{mean + sigma, sigma}};
 }
 
 // The first one spreads the states evenly over the speeds, the others at random.
@@ -106,6 +137,10 @@ HmmParams in_order_of_speed(const HmmParams& parameters) {
     sorted.initial[to] = parameters.initial[from];
     sorted.mean[i] = parameters.mean[order[i]];
     sorted.covariance[i] = parameters.covariance[order[i]];
+    if (parameters.deviation) {
+      if (!sorted.deviation) sorted.deviation.emplace();
+      (*sorted.deviation)[i] = (*parameters.deviation)[order[i]];
+    }
     for (std::size_t j = 0; j < kIntents; ++j) {
       sorted.transition(to, static_cast<Eigen::Index>(j)) =
           parameters.transition(from, static_cast<Eigen::Index>(order[j]));
@@ -145,6 +180,31 @@ void LearningParams::validate() const {
   require(tolerance > 0 && std::isfinite(tolerance), "tolerance", tolerance, "> 0");
 }
 
+namespace {
+
+// Mean and standard deviation of each state's deviations.
+std::array<LogDeviation, kIntents> weighted_deviations(
+    const std::vector<Sequence>& runs, const std::vector<Eigen::Matrix3Xd>& posterior) {
+  std::array<double, kIntents> weight{}, sum{}, squares{};
+  for_each_deviation(runs, [&](std::size_t run, Eigen::Index k, double x) {
+    for (std::size_t i = 0; i < kIntents; ++i) {
+      const double gamma = posterior[run](static_cast<Eigen::Index>(i), k);
+      weight[i] += gamma;
+      sum[i] += gamma * x;
+      squares[i] += gamma * x * x;
+    }
+  });
+  std::array<LogDeviation, kIntents> result;
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    if (weight[i] < kLeastObservations) refuse_state(i, weight[i]);
+    const double mean = sum[i] / weight[i];
+    result[i] = {mean, std::sqrt(std::max(squares[i] / weight[i] - mean * mean, 0.0))};
+  }
+  return result;
+}
+
+}  // namespace
+
 EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& runs,
                      bool free_means) {
   std::vector<Eigen::Matrix3Xd> posterior;
@@ -157,7 +217,7 @@ EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& r
     totals.log_likelihood += smoothing.log_likelihood;
     posterior.push_back(std::move(smoothing.posterior));
   }
-  for_each_velocity(runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o) {
+  for_each_velocity(runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o, double) {
     totals.weight += posterior[run].col(k);
     for (std::size_t i = 0; i < kIntents; ++i) {
       totals.sum[i] += posterior[run](static_cast<Eigen::Index>(i), k) * o;
@@ -174,16 +234,18 @@ EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& r
     if (free_means) next.mean[i] = totals.sum[i] / weight;
     next.covariance[i].setZero();
   }
-  for_each_velocity(runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o) {
-    for (std::size_t i = 0; i < kIntents; ++i) {
-      const Eigen::Vector3d d = o - next.mean[i];
-      next.covariance[i] += posterior[run](static_cast<Eigen::Index>(i), k) * d * d.transpose();
-    }
-  });
+  for_each_velocity(
+      runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o, double spread) {
+        for (std::size_t i = 0; i < kIntents; ++i) {
+          next.covariance[i] += posterior[run](static_cast<Eigen::Index>(i), k) *
+                                moment_of(o - next.mean[i], spread);
+        }
+      });
   for (std::size_t i = 0; i < kIntents; ++i) {
     next.covariance[i] /= totals.weight[static_cast<Eigen::Index>(i)];
     next.covariance[i] = (0.5 * (next.covariance[i] + next.covariance[i].transpose())).eval();
   }
+  if (parameters.deviation) next.deviation = weighted_deviations(runs, posterior);
   return step;
 }
 
@@ -191,11 +253,13 @@ LearningResult learn(const std::vector<Sequence>& runs, const LearningParams& op
                      const OnIteration& on_iteration) {
   options.validate();
   const Eigen::Matrix3d moment = pooled_moment(runs);
+  const auto deviations = first_deviations(runs);
   std::mt19937 random(options.seed);
   LearningResult best;
   std::vector<std::string> refused;
   for (int restart = 0; restart < options.restarts; ++restart) {
-    const HmmParams guess = first_guess(moment, options.free_means, restart, random);
+    HmmParams guess = first_guess(moment, options.free_means, restart, random);
+    guess.deviation = deviations;
     try {
       LearningResult learned = climb(guess, runs, options, restart, on_iteration);
       const bool better =

@@ -19,9 +19,9 @@ Eigen::Matrix3Xd log_densities(const HmmParams& parameters, const Sequence& sequ
   const EmissionModel emission(parameters);
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(sequence.size()));
   for (std::size_t k = 0; k < sequence.size(); ++k) {
-    const auto& [velocity, label] = sequence[k];
+    const auto& [velocity, label, spread, deviation] = sequence[k];
     Eigen::Vector3d column = Eigen::Vector3d::Zero();
-    if (velocity) column = emission.log_density(*velocity);
+    if (velocity) column = emission.log_density(ObservedMotion{*velocity, spread, deviation});
     for (Eigen::Index i = 0; label && i < 3; ++i) {
       if (i != static_cast<Eigen::Index>(*label)) column[i] = kImpossible;
     }

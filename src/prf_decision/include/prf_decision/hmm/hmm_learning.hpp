@@ -5,7 +5,9 @@
 //   E   gamma_k = P(state k | run), xi = expected transitions            (hmm_sequence.hpp)
 //   M   initial_i = mean over runs of gamma_0i          A_ij = xi_ij / sum_j xi_ij
 //       mean_i = sum gamma_ki o_k / sum gamma_ki        (or 0)
-//       covariance_i = sum gamma_ki (o_k - mean_i)(o_k - mean_i)^T / sum gamma_ki
+//       covariance_i = sum gamma_ki ((o_k - mean_i)(o_k - mean_i)^T + s_k^2/3 I) / sum gamma_ki
+//       deviation_i  = mean and standard deviation of x_k, weighted by gamma_ki, where it is known
+// s_k is the spread of an observation: the model's density is an expectation over it (hmm.hpp).
 // Where every observation is labelled gamma is 0 or 1, and the first iteration gives the result.
 //
 // Without labels the likelihood does not change when states change names: they are named by rising

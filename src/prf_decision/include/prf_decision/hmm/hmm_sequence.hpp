@@ -19,6 +19,9 @@ namespace prf_decision {
 struct Observation {
   std::optional<Eigen::Vector3d> velocity;  // m/s; none: the target was not measured
   std::optional<Intent> label;              // none: not known
+  // As in ObservedMotion; without a velocity they do not count.
+  double spread = 0;                               // m/s
+  std::optional<double> deviation = std::nullopt;  // m
 };
 using Sequence = std::vector<Observation>;
 
