@@ -54,8 +54,8 @@ std::string missing_joints(const RobotNames& robot, const sensor_msgs::JointStat
   return missing;
 }
 
-std::optional<jaco_kinematics::JointVector> measured_joints(
-    const RobotNames& robot, const sensor_msgs::JointState& joints) {
+std::optional<jaco_kinematics::JointVector> measured_joints(const RobotNames& robot,
+                                                            const sensor_msgs::JointState& joints) {
   constexpr double kMostTurns = 100;  // rad; beyond it the angle's sine means nothing
   if (!missing_joints(robot, joints).empty()) return std::nullopt;
   jaco_kinematics::JointVector q;

@@ -81,8 +81,8 @@ class DecisionNode {
     action_.see_joints(message);
     const Stamp stamp = prf_ros::to_core(message.header.stamp);
     const auto joints = measured_joints(params_.robot, message);
-    const auto hand =
-        joints ? std::optional(prf_core::pose_from(jaco_kinematics::forward(*joints))) : std::nullopt;
+    const auto hand = joints ? std::optional(prf_core::pose_from(jaco_kinematics::forward(*joints)))
+                             : std::nullopt;
     account("joint_states", stamp, gate_.push_tick(stamp, hand, joints));
     process();
   }

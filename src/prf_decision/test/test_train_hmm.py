@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
 import rosbag
 import rospy
 import yaml
@@ -17,7 +18,7 @@ import prf_decision
 from prf_msgs.msg import ExecutionProgress, TargetForecast, TargetPrediction
 
 COMMANDS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python")
-HMM = os.path.join(COMMANDS, "..", "config", "hmm_default.yaml")
+HMM = os.path.join(COMMANDS, "..", "config", "hmm_paper.yaml")
 
 
 train_hmm = importlib.machinery.SourceFileLoader(
@@ -70,6 +71,25 @@ class WhatTrainHmmReads(unittest.TestCase):
         with open(self.table, "w", encoding="utf-8") as file:
             file.write("time_s,label\n1,pause\n2.5,reverse\n4,none\n")
         self.assertEqual(train_hmm.read_bag(self.bag, "csv")[1], [-1, 1, 1, 2, -1])
+
+    def test_a_table_of_what_is_observed_with_blanks_for_what_is_not_known(self):
+        with open(self.table, "w", encoding="utf-8") as file:
+            file.write("time_s,velocity_x,velocity_y,velocity_z,spread,deviation,label\n"
+                       "0,0.1,0.2,0.3,0.05,0.01,forward\n0.03,,,,,,none\n0.07,1,2,3,0,,reverse\n")
+        motions, labels = train_hmm.read_table(self.table)
+        self.assertEqual(motions[0].tolist(), [0.1, 0.2, 0.3, 0.05, 0.01])
+        self.assertTrue(all(map(math.isnan, motions[1])))
+        self.assertEqual(motions[2, :4].tolist(), [1, 2, 3, 0])
+        self.assertTrue(math.isnan(motions[2, 4]))
+        self.assertEqual(labels, [0, -1, 2])
+
+    def test_the_reaction_counts_from_a_label_that_leaves_forward_after_a_second_of_it(self):
+        model = prf_decision.load_hmm(HMM)
+        speeds = [0.0] * 40 + [0.02] * 3 + [3.0] * 20 + [0.0] * 40 + [0.02] * 10 + [0.0] * 40
+        labels = [0] * 40 + [2] * 23 + [0] * 40 + [1] * 10 + [0] * 40
+        velocities = [[speed, 0, 0] for speed in speeds]
+        found, missed = train_hmm.reactions(model, [(np.array(velocities), labels)])
+        self.assertEqual((found, missed), ([3], 1))
 
     def test_refuses_forecasts_whose_stamps_do_not_rise(self):
         write_bag(self.bag, [10, 12, 11], [TargetForecast.TRACKING] * 3, [])

@@ -21,7 +21,7 @@
 namespace prf_studies {
 
 struct ObservedRun {
-  std::vector<prf_core::TargetForecast> forecasts;  // stamps rise
+  std::vector<prf_core::TargetForecast> forecasts;                      // stamps rise
   std::function<std::optional<prf_core::Pose>(prf_core::Stamp)> truth;  // none: not known
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Labels recorded motion by what the arm can do with it, and says how closely it can be held.
+#include <ros/package.h>
 #include <yaml-cpp/yaml.h>
 #include <cmath>
 #include <elte_planner/demonstration.hpp>
@@ -9,7 +10,6 @@
 #include <platform_sim/robot_files.hpp>
 #include <prf_core/readable_file.hpp>
 #include <prf_decision/motion_observer.hpp>
-#include <ros/package.h>
 
 #include "command.hpp"
 #include "observed_run.hpp"
@@ -76,12 +76,12 @@ struct Judged {
 Judged judge(const Task& task, const std::string& path) {
   Judged judged{path, {}, {}, {}};
   const bool is_bag = std::filesystem::path(path).extension() == ".bag";
-  judged.run = is_bag ? run_from_bag(path)
-                      : run_from_motion(
-                            path, share_file("prf_predictor", "config/target_predictor.yaml"),
-                            share_file("prf_predictor",
-                                       "config/predictors/" + task.predictor + ".yaml"),
-                            task.seed);
+  judged.run =
+      is_bag ? run_from_bag(path)
+             : run_from_motion(
+                   path, share_file("prf_predictor", "config/target_predictor.yaml"),
+                   share_file("prf_predictor", "config/predictors/" + task.predictor + ".yaml"),
+                   task.seed);
   judged.followed = follow(judged.run, task.ability);
   judged.labels = labels(judged.run, judged.followed.instants, task.ability);
   return judged;
@@ -129,9 +129,8 @@ std::string table_of(const Task& task, const std::string& path) {
 
 nlohmann::ordered_json figures_of(const Judged& judged, const AbilityParams& params) {
   nlohmann::ordered_json figures{{"run", judged.path}};
-  for (const auto& [key, share] : {std::pair{"held_median_mm", 0.5},
-                                   {"held_p95_mm", 0.95},
-                                   {"held_largest_mm", 1.0}}) {
+  for (const auto& [key, share] :
+       {std::pair{"held_median_mm", 0.5}, {"held_p95_mm", 0.95}, {"held_largest_mm", 1.0}}) {
     figures[key] = 1e3 * held_within(judged.followed.instants, share, params);
   }
   for (const Intent intent : {Intent::kForward, Intent::kPause, Intent::kReverse}) {
@@ -146,9 +145,8 @@ void print(const nlohmann::ordered_json& figures) {
   std::printf("%s: this arm can hold %.0f mm here (95 %%: %.0f mm, median %.1f mm); ",
               figures["run"].get<std::string>().c_str(), number("held_largest_mm"),
               number("held_p95_mm"), number("held_median_mm"));
-  std::printf("forward %.1f %%, pause %.1f %%, reverse %.1f %%\n",
-              100 * number("forward_fraction"), 100 * number("pause_fraction"),
-              100 * number("reverse_fraction"));
+  std::printf("forward %.1f %%, pause %.1f %%, reverse %.1f %%\n", 100 * number("forward_fraction"),
+              100 * number("pause_fraction"), 100 * number("reverse_fraction"));
   std::fflush(stdout);
 }
 

@@ -19,8 +19,8 @@ using prf_core::Stamp;
 using prf_core::TargetForecast;
 using prf_core::TargetStatus;
 
-constexpr double kRate = 30.0;                                          // images per second
-constexpr Stamp kStart = std::chrono::seconds(1);                       // a stamp is not 0
+constexpr double kRate = 30.0;                                              // images per second
+constexpr Stamp kStart = std::chrono::seconds(1);                           // a stamp is not 0
 constexpr prf_core::Duration kLongestGap = std::chrono::milliseconds(100);  // of tracking
 // s, as far ahead as an execution looks, and more.
 const std::vector<double> kHorizons{0.0, 0.05, 0.1, 0.25};
@@ -57,8 +57,8 @@ std::optional<prf_core::Pose> seen_at(const std::vector<TargetForecast>& tracked
 
 ObservedRun run_from_motion(const std::string& path, const std::string& node_file,
                             const std::string& predictor_file, std::uint32_t seed) {
-  const auto motion = std::make_shared<RecordedMotion>(
-      read_motion(path, {"time", "tag_x", "tag_y", "tag_z"}));
+  const auto motion =
+      std::make_shared<RecordedMotion>(read_motion(path, {"time", "tag_x", "tag_y", "tag_z"}));
   if (motion->orientation.empty()) {
     throw std::invalid_argument(path + " has no columns tag_qx .. tag_qw");
   }

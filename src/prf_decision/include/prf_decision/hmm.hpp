@@ -7,8 +7,9 @@
 // the root mean square of what it does not show, ln b_i is its expectation over N(o, s^2/3 I):
 //   E ln b_i = ln N(o; mean_i, covariance_i) - s^2/6 tr covariance_i^-1
 // so that a larger spread speaks against states of narrow covariance, as a larger speed does.
-// A model may observe one thing more: the deviation d of a hand that the arm's limits let follow the
-// target (shadow_arm.hpp), as x = ln(d + kLeastDeviation), Gaussian and independent of the velocity:
+// A model may observe one thing more: the deviation d of a hand that the arm's limits let follow
+// the target (shadow_arm.hpp), as x = ln(d + kLeastDeviation), Gaussian and independent of the
+// velocity:
 //   ln b_i = (the above) + ln N(x; deviation_i.mean, deviation_i.sigma^2)
 // Where d is not known the velocity alone counts.
 // Forward filter (Rabiner 1989, scaled), one step per observation:

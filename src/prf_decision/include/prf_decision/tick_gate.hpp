@@ -59,11 +59,11 @@ struct ForecastArrival {
 
 struct Tick {
   Stamp stamp{0};
-  std::optional<Pose> hand;                // as measured; none: not known
+  std::optional<Pose> hand;                                 // as measured; none: not known
   std::optional<jaco_kinematics::JointVector> joints = {};  // that it was measured by
-  std::vector<ForecastArrival> forecasts;  // used from this tick on, in order
-  std::optional<PlanResult> plan_result;   // used from this tick on, the newest one
-  std::optional<ControlReport> control;    // the newest one that may be used, also an earlier one
+  std::vector<ForecastArrival> forecasts;                   // used from this tick on, in order
+  std::optional<PlanResult> plan_result;  // used from this tick on, the newest one
+  std::optional<ControlReport> control;   // the newest one that may be used, also an earlier one
   bool forecast_silent = false;
   bool planner_silent = false;
   bool control_silent = false;

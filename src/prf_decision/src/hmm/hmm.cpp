@@ -18,8 +18,8 @@ constexpr double kSymmetryTolerance = 1e-12;  // m^2/s^2, rounding of a product 
 constexpr double kMinVariance = 1e-8;         // (0.1 mm/s)^2, far below any sensor's noise
 constexpr double kMaxVariance = kMaxObservedSpeed * kMaxObservedSpeed;
 
-constexpr double kMaxLogDeviation = 20;                // far beyond ln of any length here
-constexpr double kMinLogSigma = 1e-3;                  // a thousandth of the deviation
+constexpr double kMaxLogDeviation = 20;  // far beyond ln of any length here
+constexpr double kMinLogSigma = 1e-3;    // a thousandth of the deviation
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
@@ -156,7 +156,8 @@ Eigen::Vector3d EmissionModel::log_density(const ObservedMotion& observation) co
   for (std::size_t i = 0; i < kIntents; ++i) {
     const auto& [mean, sigma] = (*deviation_)[i];
     const double off = (x - mean) / sigma;
-    result[static_cast<Eigen::Index>(i)] -= 0.5 * (off * off + std::log(2 * M_PI)) + std::log(sigma);
+    result[static_cast<Eigen::Index>(i)] -=
+        0.5 * (off * off + std::log(2 * M_PI)) + std::log(sigma);
   }
   return result;
 }

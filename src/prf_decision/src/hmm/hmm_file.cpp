@@ -22,8 +22,8 @@ void require_keys(const YAML::Node& map, const std::string& name, const Keys& ke
   if (!map.IsMap()) refuse(name + " is not a map of keys");
   for (const auto& entry : map) {
     const auto key = entry.first.as<std::string>();
-    const bool known = std::any_of(keys.begin(), keys.end(),
-                                   [&](const char* one) { return key == one; });
+    const bool known =
+        std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
     if (!known && (optional.empty() || key != optional)) {
       refuse("unknown key '" + key + "' in " + name);
     }

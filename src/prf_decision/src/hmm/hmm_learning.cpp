@@ -237,8 +237,8 @@ EmStepResult em_step(const HmmParams& parameters, const std::vector<Sequence>& r
   for_each_velocity(
       runs, [&](std::size_t run, Eigen::Index k, const Eigen::Vector3d& o, double spread) {
         for (std::size_t i = 0; i < kIntents; ++i) {
-          next.covariance[i] += posterior[run](static_cast<Eigen::Index>(i), k) *
-                                moment_of(o - next.mean[i], spread);
+          next.covariance[i] +=
+              posterior[run](static_cast<Eigen::Index>(i), k) * moment_of(o - next.mean[i], spread);
         }
       });
   for (std::size_t i = 0; i < kIntents; ++i) {

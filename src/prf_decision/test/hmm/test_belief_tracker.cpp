@@ -63,7 +63,7 @@ struct Reaction {
 constexpr int kImages = 200;
 
 Reaction react(const Shaking& target, Filter filter) {
-  static const HmmParams kHmm = load_hmm("config/hmm_default.yaml");
+  static const HmmParams kHmm = load_hmm("config/hmm_paper.yaml");
   BeliefTracker belief(kHmm);
   for (int image = 0; image < 60; ++image) belief.update({arrival(image, {0, 0, 0}, {})});
   Reaction reaction{0, kImages};
@@ -144,7 +144,7 @@ TEST(BeliefTracker, SeesAShakingTargetAboveHalfTheImageRate) {
 TEST(BeliefTracker, StaysInForwardWhereTheFilterFollowsAFastRegularMotion) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.0004);
-  BeliefTracker belief(load_hmm("config/hmm_default.yaml"));
+  BeliefTracker belief(load_hmm("config/hmm_paper.yaml"));
   const double variance = 2 * 1.6e-7 / (kPeriod * kPeriod);
   Eigen::Vector3d before(0, 0, 0);
   for (int k = 0; k < 3000; ++k) {

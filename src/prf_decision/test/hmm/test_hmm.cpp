@@ -203,5 +203,33 @@ TEST(HmmParams, RefusesEveryEntryOfTheCatalogueByName) {
   }
 }
 
+// Bayes' rule with the two densities written out.
+TEST(HmmFilter, ObservesADeviationBesideTheVelocity) {
+  HmmParams hmm = usual_hmm();
+  hmm.deviation = {LogDeviation{-5, 0.6}, LogDeviation{-3.4, 0.5}, LogDeviation{-2.7, 0.6}};
+  const HmmFilter filter(hmm);
+  const Eigen::Vector3d velocity(0.2, -0.1, 0.05);
+  const double deviation = 0.05;
+  const HmmBelief belief = filter.observe(filter.initial_belief(), {velocity, 0, deviation});
+  Eigen::Vector3d joint;
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const double variance = hmm.covariance[i](0, 0);
+    const double off = (std::log(deviation + kLeastDeviation) - (*hmm.deviation)[i].mean) /
+                       (*hmm.deviation)[i].sigma;
+    joint[static_cast<Eigen::Index>(i)] =
+        hmm.initial[static_cast<Eigen::Index>(i)] * std::pow(variance, -1.5) *
+        std::exp(-0.5 * velocity.squaredNorm() / variance - 0.5 * off * off) /
+        (*hmm.deviation)[i].sigma;
+  }
+  EXPECT_TRUE(belief.posterior.isApprox(joint / joint.sum(), 1e-9));
+  // Where it is not known, and in a model that does not observe it, the velocity alone counts.
+  const HmmFilter plain(usual_hmm());
+  const auto without = filter.observe(filter.initial_belief(), {velocity});
+  const auto ignored = plain.observe(plain.initial_belief(), {velocity, 0, deviation});
+  EXPECT_TRUE(without.posterior.isApprox(ignored.posterior, 1e-12));
+  EXPECT_THROW(static_cast<void>(filter.observe(belief, {velocity, 0, -0.1})),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace prf_decision

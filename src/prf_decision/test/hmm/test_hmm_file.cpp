@@ -48,12 +48,40 @@ TEST_F(HmmFile, GivesTheValuesThatAreWrittenInIt) {
 }
 
 TEST_F(HmmFile, OfTheConfigurationIsValid) {
-  const HmmParams hmm = load_hmm("config/hmm_default.yaml");
+  const HmmParams hmm = load_hmm("config/hmm_paper.yaml");
   HmmParams expected = usual_hmm();
   expected.covariance = {Eigen::Matrix3d::Identity() * 0.15 * 0.15,
                          Eigen::Matrix3d::Identity() * 0.285 * 0.285,
                          Eigen::Matrix3d::Identity() * 0.54 * 0.54};
   expect_same(hmm, expected);
+}
+
+TEST_F(HmmFile, OfTheTrainedModelObservesTheDeviation) {
+  EXPECT_TRUE(load_hmm("config/hmm_trained.yaml").deviation);
+}
+
+TEST_F(HmmFile, KeepsEveryDigitOfDeviations) {
+  HmmParams hmm = usual_hmm();
+  hmm.deviation = {LogDeviation{-5.0 / 3, 0.1}, LogDeviation{-1.1, 1.0 / 7},
+                   LogDeviation{0.3, 2.0}};
+  const HmmParams read = load_hmm(write(hmm_text(hmm, "")));
+  ASSERT_TRUE(read.deviation);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    EXPECT_EQ((*read.deviation)[i].mean, (*hmm.deviation)[i].mean);
+    EXPECT_EQ((*read.deviation)[i].sigma, (*hmm.deviation)[i].sigma);
+  }
+}
+
+TEST_F(HmmFile, RefusesDeviationsThatDoNotRiseOrAreIncomplete) {
+  const std::string valid(kValid);
+  for (const char* wrong : {"deviation: {forward: [-3, 1], pause: [-3, 1], reverse: [-1, 1]}",
+                            "deviation: {forward: [-5, 1], pause: [-3, 0], reverse: [-1, 1]}",
+                            "deviation: {forward: [-5, 1], pause: [.nan, 1], reverse: [-1, 1]}",
+                            "deviation: {forward: [-5, 1], pause: [-3], reverse: [-1, 1]}",
+                            "deviation: {forward: [-5, 1], reverse: [-1, 1]}"}) {
+    EXPECT_THROW(static_cast<void>(load_hmm(write(valid + wrong + "\n"))), std::invalid_argument)
+        << wrong;
+  }
 }
 
 TEST_F(HmmFile, KeepsEveryDigitWhenWrittenAndRead) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <cmath>
 #include <string>
 
@@ -210,6 +212,32 @@ TEST(LearningParams, AreRefusedByName) {
   options = LearningParams();
   options.tolerance = NAN;
   EXPECT_NE(refusal({}, options).find("tolerance = nan"), std::string::npos);
+}
+
+TEST(HmmLearning, LearnsSpreadAndDeviationOfLabelledObservations) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  Sequence run;
+  for (int k = 0; k < 9000; ++k) {
+    const auto intent = static_cast<Intent>(k / 30 % 3);
+    const double scale = 1 + static_cast<double>(static_cast<int>(intent));
+    Observation o;
+    o.velocity = 0.1 * scale * Eigen::Vector3d(normal(random), normal(random), normal(random));
+    o.spread = 0.2 * scale;
+    o.deviation = std::exp(-6 + scale + 0.4 * normal(random));
+    o.label = intent;
+    run.push_back(o);
+  }
+  const HmmParams learnt = learn({run}, LearningParams()).parameters;
+  ASSERT_TRUE(learnt.deviation);
+  for (std::size_t i = 0; i < kIntents; ++i) {
+    const double scale = 1 + static_cast<double>(i);
+    const double variance = scale * scale * (0.01 + 0.04 / 3);
+    EXPECT_TRUE(learnt.covariance[i].isApprox(variance * Eigen::Matrix3d::Identity(), 0.05)) << i;
+    const double lengthened = std::log(std::exp(-6 + scale) + kLeastDeviation);
+    EXPECT_NEAR((*learnt.deviation)[i].mean, lengthened, 0.1) << i;
+    EXPECT_LT((*learnt.deviation)[i].sigma, 0.41) << i;
+  }
 }
 
 }  // namespace

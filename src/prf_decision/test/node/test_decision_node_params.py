@@ -16,7 +16,7 @@ import yaml
 
 PACKAGE = rospkg.RosPack().get_path("prf_decision")
 CONFIG = os.path.join(PACKAGE, "config", "decision.yaml")
-HMM = os.path.join(PACKAGE, "config", "hmm_default.yaml")
+HMM = os.path.join(PACKAGE, "config", "hmm_paper.yaml")
 NAMES = (f"refused_decision_{number}" for number in count())
 AT_ONCE = 4
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The readable YAML file of HMM parameters; see config/hmm_default.yaml for its form.
+// The readable YAML file of HMM parameters; see config/hmm_paper.yaml for its form.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ from prf_msgs import bags
 
 PLAYED = topics.CLOCK + topics.SENSORS
 COMPARED = ["/" + topic for topic in topics.OUTPUTS + topics.TRANSFORMS]
-FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "demonstration"]
+FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "hmm", "approach", "demonstration"]
 
 
 @contextlib.contextmanager

@@ -83,13 +83,16 @@ LAUNCHED = {
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),
     "method": Argument("default", **choice("default", "paper"),
-                       meaning="paper: as printed; sets predictor:=paper approach:=false where they "
-                       "are not given"),
+                       meaning="paper: as printed; sets predictor:=paper hmm:=paper approach:=false where "
+                       "they are not given"),
     "approach": Argument(True, **boolean(),
                          meaning="false: the target binds the skill at its end point alone, not on "
                          "the approach"),
     "decision": Argument("hmm", **choice("hmm", "forward"),
                          meaning="forward: never waits or goes back for the target's motion"),
+    "hmm": Argument("trained", **choice_or_file("paper", "trained", endings=(".yaml",)),
+                    meaning="model of the target's motion: by hand as in the paper, learnt from what the "
+                    "arm can do, or a file"),
     "predictor": Argument("periodic", **choice(*names.predictor_names()),
                           meaning="how the target's motion is predicted"),
     "variation": Argument(1.0, **number(0.0, 1.0),
@@ -114,9 +117,8 @@ TRIAL = {
 }
 
 
-# The parts of method:=paper. Both methods decide with the same HMM, of the paper's kind: three states that see
-# the velocity of the target.
-PAPER = {"predictor": "paper", "approach": False}
+# The parts of method:=paper.
+PAPER = {"predictor": "paper", "hmm": "paper", "approach": False}
 
 
 def of_method(values: dict) -> dict:
@@ -150,7 +152,7 @@ def words(values: dict) -> list[str]:
 def contents(values: dict) -> dict[str, str]:
     """{argument: SHA-256 of the file that it names}: what a trial is depends on the content."""
     found = {}
-    for key in ("motion", "body_motion", "demonstration"):
+    for key in ("motion", "body_motion", "hmm", "demonstration"):
         if values.get(key) and os.path.isfile(values[key]):
             with open(values[key], "rb") as stream:
                 found[key] = hashlib.sha256(stream.read()).hexdigest()
@@ -171,7 +173,7 @@ def name(values: dict) -> str:
     def short(key):
         base = os.path.basename(values[key] or "")
         return f"{base}-{files[key][:8]}" if key in files else base or (values[key] and base)
-    brief = {**values, **{key: short(key) for key in ("motion", "body_motion", "demonstration")}}
+    brief = {**values, **{key: short(key) for key in ("motion", "body_motion", "hmm", "demonstration")}}
     full = "_".join(re.sub(r"[^\w.@+-]", "-", word.replace(":=", "-")) for word in words(brief))
     if len(full) <= LONGEST_NAME:
         return full
