@@ -119,6 +119,7 @@ PYBIND11_MODULE(prf_decision, module) {
       .def_readwrite("mean", &HmmParams::mean)
       .def_readwrite("covariance", &HmmParams::covariance)
       .def_property_readonly("deviation", &deviation_of)
+      .def_readwrite("weight", &HmmParams::weight)
       .def("validate", &HmmParams::validate);
   py::class_<LearningResult>(module, "LearningResult")
       .def_readonly("parameters", &LearningResult::parameters)

@@ -12,6 +12,8 @@
 // velocity:
 //   ln b_i = (the above) + ln N(x; deviation_i.mean, deviation_i.sigma^2)
 // Where d is not known the velocity alone counts.
+// Observations of successive images are not independent, as the model has it: a filter that counts
+// each of them fully is too sure of itself. ln b_i counts `weight` of it.
 // Forward filter (Rabiner 1989, scaled), one step per observation:
 //   predicted_j = sum_i posterior_i A_ij,   posterior_j = predicted_j b_j(o) / sum_k (same)
 // The first observation uses the initial distribution as predicted.
@@ -44,6 +46,7 @@ struct HmmParams {
   std::array<Eigen::Matrix3d, kIntents> covariance{};    // m^2/s^2, positive definite
   // None: the model observes the velocity alone.
   std::optional<std::array<LogDeviation, kIntents>> deviation = std::nullopt;
+  double weight = 1;  // of an observation in the filter, 0.01 .. 1
 
   // std::invalid_argument names the entry, its value and the bound. Besides wrong
   // probabilities and covariances it refuses states in the wrong order (mean_square_speed must
@@ -65,7 +68,7 @@ class EmissionModel {
 
   // std::invalid_argument when the velocity is not finite.
   [[nodiscard]] Eigen::Vector3d log_density(const Eigen::Vector3d& velocity) const;
-  // The expectation of the header, of the observation cut to kMaxObservedSpeed.
+  // The expectation of the header, of the observation cut to kMaxObservedSpeed, without the weight.
   // std::invalid_argument when it is not finite, or spread or deviation are negative.
   [[nodiscard]] Eigen::Vector3d log_density(const ObservedMotion& observation) const;
 

@@ -108,6 +108,7 @@ void HmmParams::validate() const {
     slower = speed;
   }
   if (deviation) validate_deviations(*deviation);
+  if (!(weight >= 0.01 && weight <= 1)) refuse("weight is ", weight, ", must be in 0.01 .. 1");
 }
 
 double log_deviation(double deviation) {
@@ -189,7 +190,7 @@ HmmBelief HmmFilter::predict(const HmmBelief& belief) const {
 }
 
 HmmBelief HmmFilter::observe(const HmmBelief& belief, const ObservedMotion& observation) const {
-  const Eigen::Vector3d log_density = emission_.log_density(observation);
+  const Eigen::Vector3d log_density = parameters_.weight * emission_.log_density(observation);
   HmmBelief predicted = predict(belief);
   if (predicted.was_reset && !belief.was_reset) return predicted;
   // Scaled by the largest joint probability, so that a far outlier cannot underflow all states.

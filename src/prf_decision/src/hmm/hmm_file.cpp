@@ -18,13 +18,13 @@ using Keys = std::initializer_list<const char*>;
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
 void require_keys(const YAML::Node& map, const std::string& name, const Keys& keys,
-                  const std::string& optional = "") {
+                  const Keys& optional = {}) {
   if (!map.IsMap()) refuse(name + " is not a map of keys");
   for (const auto& entry : map) {
     const auto key = entry.first.as<std::string>();
-    const bool known =
-        std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
-    if (!known && (optional.empty() || key != optional)) {
+    const auto is_key = [&](const char* one) { return key == one; };
+    if (std::none_of(keys.begin(), keys.end(), is_key) &&
+        std::none_of(optional.begin(), optional.end(), is_key)) {
       refuse("unknown key '" + key + "' in " + name);
     }
   }
@@ -75,11 +75,13 @@ LogDeviation log_deviation_of(const YAML::Node& node, const std::string& name) {
 
 HmmParams parse(const YAML::Node& root) {
   const Keys intents{kIntentNames[0], kIntentNames[1], kIntentNames[2]};
-  require_keys(root, "the file", {"initial", "transition", "mean", "covariance"}, "deviation");
+  require_keys(root, "the file", {"initial", "transition", "mean", "covariance"},
+               {"deviation", "weight"});
   for (const char* key : {"initial", "transition", "mean", "covariance"}) {
     require_keys(root[key], key, intents);
   }
   HmmParams parameters;
+  if (root["weight"]) parameters.weight = number(root["weight"], "weight");
   if (root["deviation"]) {
     require_keys(root["deviation"], "deviation", intents);
     parameters.deviation.emplace();
@@ -144,6 +146,10 @@ std::string hmm_text(const HmmParams& parameters, const std::string& comment) {
       const Eigen::RowVector3d values = parameters.covariance[i].row(row);
       text << "    - " << values.format(kList) << '\n';
     }
+  }
+  if (parameters.weight != 1) {
+    text << "\n# Of an observation in the filter: successive ones are not independent.\nweight: "
+         << parameters.weight << '\n';
   }
   if (!parameters.deviation) return text.str();
   text << "\n# ln(deviation of the shadow arm's hand + 0.003 m): mean and standard deviation.\n"

@@ -204,6 +204,22 @@ TEST(HmmParams, RefusesEveryEntryOfTheCatalogueByName) {
 }
 
 // Bayes' rule with the two densities written out.
+TEST(HmmFilter, CountsTheWeightOfAnObservation) {
+  HmmParams hmm = usual_hmm();
+  hmm.weight = 0.25;
+  const HmmFilter quarter(hmm);
+  const HmmFilter whole(usual_hmm());
+  const Eigen::Vector3d velocity(0.3, -0.2, 0.1);
+  const auto odds = [&](const HmmFilter& filter) {
+    const HmmBelief belief = filter.observe(filter.initial_belief(), {velocity});
+    return Eigen::Vector3d(belief.posterior.cwiseQuotient(usual_hmm().initial).array().log());
+  };
+  const Eigen::Vector3d a = odds(whole);
+  const Eigen::Vector3d b = odds(quarter);
+  EXPECT_NEAR(b[1] - b[0], 0.25 * (a[1] - a[0]), 1e-9);
+  EXPECT_NEAR(b[2] - b[1], 0.25 * (a[2] - a[1]), 1e-9);
+}
+
 TEST(HmmFilter, ObservesADeviationBesideTheVelocity) {
   HmmParams hmm = usual_hmm();
   hmm.deviation = {LogDeviation{-5, 0.6}, LogDeviation{-3.4, 0.5}, LogDeviation{-2.7, 0.6}};

@@ -64,8 +64,10 @@ TEST_F(HmmFile, KeepsEveryDigitOfDeviations) {
   HmmParams hmm = usual_hmm();
   hmm.deviation = {LogDeviation{-5.0 / 3, 0.1}, LogDeviation{-1.1, 1.0 / 7},
                    LogDeviation{0.3, 2.0}};
+  hmm.weight = 1.0 / 3;
   const HmmParams read = load_hmm(write(hmm_text(hmm, "")));
   ASSERT_TRUE(read.deviation);
+  EXPECT_EQ(read.weight, hmm.weight);
   for (std::size_t i = 0; i < kIntents; ++i) {
     EXPECT_EQ((*read.deviation)[i].mean, (*hmm.deviation)[i].mean);
     EXPECT_EQ((*read.deviation)[i].sigma, (*hmm.deviation)[i].sigma);
@@ -74,11 +76,12 @@ TEST_F(HmmFile, KeepsEveryDigitOfDeviations) {
 
 TEST_F(HmmFile, RefusesDeviationsThatDoNotRiseOrAreIncomplete) {
   const std::string valid(kValid);
-  for (const char* wrong : {"deviation: {forward: [-3, 1], pause: [-3, 1], reverse: [-1, 1]}",
-                            "deviation: {forward: [-5, 1], pause: [-3, 0], reverse: [-1, 1]}",
-                            "deviation: {forward: [-5, 1], pause: [.nan, 1], reverse: [-1, 1]}",
-                            "deviation: {forward: [-5, 1], pause: [-3], reverse: [-1, 1]}",
-                            "deviation: {forward: [-5, 1], reverse: [-1, 1]}"}) {
+  for (const char* wrong :
+       {"deviation: {forward: [-3, 1], pause: [-3, 1], reverse: [-1, 1]}",
+        "deviation: {forward: [-5, 1], pause: [-3, 0], reverse: [-1, 1]}",
+        "deviation: {forward: [-5, 1], pause: [.nan, 1], reverse: [-1, 1]}",
+        "deviation: {forward: [-5, 1], pause: [-3], reverse: [-1, 1]}",
+        "deviation: {forward: [-5, 1], reverse: [-1, 1]}", "weight: 0", "weight: 1.1"}) {
     EXPECT_THROW(static_cast<void>(load_hmm(write(valid + wrong + "\n"))), std::invalid_argument)
         << wrong;
   }
