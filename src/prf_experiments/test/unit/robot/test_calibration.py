@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+import os
+import tempfile
+import unittest
+
+import numpy as np
+from prf_experiments.robot import arm, calibrate, calibration, made_motion
+
+from prf_experiments import geometry
+
+URDF = calibrate.description()
+CHAIN = arm.Chain(URDF, "j2s7s300_link_base", calibrate.HAND)
+NOMINAL = arm.Chain(URDF, calibrate.HAND, calibrate.OPTICAL).poses(np.zeros((1, 0)))[0]
+
+
+class Calibration(unittest.TestCase):
+    def of(self, motion, rows=slice(None)):
+        return calibration.calibrate(calibration.hand_of(CHAIN, motion.stamps, motion.measured),
+                                     (motion.stamps[0], motion.stamps[-1]), motion.image_stamps[rows],
+                                     motion.detections[rows])
+
+    def test_finds_camera_and_delays_that_are_far_from_the_description(self):
+        motion = made_motion.make(CHAIN, NOMINAL, 1)
+        found = self.of(motion, slice(None, None, 6))
+        off = geometry.compose(geometry.inverse(motion.camera_in_hand), found.camera_in_hand)
+        self.assertLess(np.linalg.norm(off[:3]), 1e-3)
+        self.assertLess(geometry.rotation(off).magnitude(), np.radians(0.2))
+        self.assertAlmostEqual(found.offset, motion.offset, delta=2e-3)
+        self.assertEqual(found.complaint, "")
+        delay = calibration.arm_delay(motion.stamps, motion.commands, motion.stamps, motion.measured)
+        self.assertAlmostEqual(delay, motion.delay, delta=1e-3)
+
+    # Fault 54: a bag without motion, or with few detections -> refused with the reason, no file
+    def test_refuses_what_does_not_determine_it(self):
+        motion = made_motion.make(CHAIN, NOMINAL, 1)
+        with self.assertRaisesRegex(calibration.CalibrationError, "detections"):
+            self.of(motion, slice(0, 50))
+        still = np.tile(made_motion.POSTURE, (len(motion.stamps), 1))
+        with self.assertRaisesRegex(calibration.CalibrationError, "did not move"):
+            calibration.arm_delay(motion.stamps, still, motion.stamps, still + 1e-5 * np.sin(motion.stamps)[:, None])
+
+    def test_the_description_gets_the_camera(self):
+        place = geometry.compose(NOMINAL, [0.01, -0.02, 0.005, 0.0, 0.0, np.sin(0.02), np.cos(0.02)])
+        text = calibrate.with_camera(URDF, place)
+        found = arm.Chain(text, calibrate.HAND, calibrate.OPTICAL).poses(np.zeros((1, 0)))[0]
+        off = geometry.compose(geometry.inverse(place), found)
+        self.assertLess(np.linalg.norm(off[:3]), 1e-8)
+        self.assertLess(geometry.rotation(off).magnitude(), 1e-7)
+
+    # Fault 54: a calibration file that calibrate did not write -> one line, exit code 1
+    def test_refuses_a_file_that_it_did_not_write(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "calibration.yaml")
+            for text in ("", "calibration: {camera_in_hand: [1, 2]}",
+                         "calibration: {camera_in_hand: [.nan, 0, 0, 0, 0, 0, 1]}"):
+                with open(file, "w", encoding="utf-8") as stream:
+                    stream.write(text)
+                self.assertEqual(calibrate.main(["--description", file]), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
