@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Node framework_view: what the framework thinks, as messages that rviz draws.
 
-Plan, executed path, forecast with ellipsoids, state and reason, and the camera's image with the tags' outlines.
+Demonstration, plan, executed path, forecast with ellipsoids, state and reason, and the camera's image with the tags'
+outlines.
 """
 import contextlib
 
@@ -17,6 +18,7 @@ from PIL import Image, ImageDraw
 
 import prf_msgs.msg
 from prf_experiments.export import additions
+from prf_experiments.teach import demonstration
 
 NAME = "framework_view"
 MODES = {"mono8": "L", "rgb8": "RGB", "bgr8": "RGB"}
@@ -41,6 +43,10 @@ def outlined(image: sensor_msgs.msg.Image, tags: list) -> sensor_msgs.msg.Image:
 
 def path(header: std_msgs.msg.Header, poses: list) -> nav_msgs.msg.Path:
     return nav_msgs.msg.Path(header, [geometry_msgs.msg.PoseStamped(header, pose) for pose in poses])
+
+
+def _pose(row: np.ndarray) -> geometry_msgs.msg.Pose:
+    return geometry_msgs.msg.Pose(geometry_msgs.msg.Point(*row[:3]), geometry_msgs.msg.Quaternion(*row[3:]))
 
 
 def ellipsoids(message: prf_msgs.msg.TargetForecast) -> visualization_msgs.msg.MarkerArray:
@@ -79,12 +85,14 @@ class FrameworkView:
         def out(name, kind):
             return rospy.Publisher("~" + name, kind, queue_size=5, latch=True)
         self._plan, self._executed = out("plan", nav_msgs.msg.Path), out("executed", nav_msgs.msg.Path)
+        self._demonstration = out("demonstration", nav_msgs.msg.Path)
         self._forecast = out("forecast", nav_msgs.msg.Path)
         self._ellipsoids = out("ellipsoids", visualization_msgs.msg.MarkerArray)
         self._state = out("state", visualization_msgs.msg.Marker)
         self._picture = out("image", sensor_msgs.msg.Image)
         self._tags: list = []
         self._done: list = []
+        self._followed: str | None = None  # file of the demonstration that is shown
         for topic, kind, take in (
                 ("skill/trajectory", prf_msgs.msg.SkillTrajectory, self._take_plan),
                 ("target/forecast", prf_msgs.msg.TargetForecast, self._take_forecast),
@@ -96,6 +104,19 @@ class FrameworkView:
 
     def _take_plan(self, message):
         _send(self._plan, path(message.header, message.poses))
+        if message.demonstration and message.demonstration != self._followed:
+            self._followed = message.demonstration
+            self._show_demonstration(message.header, message.demonstration)
+
+    def _show_demonstration(self, header, file):
+        """As it was recorded, in the planning frame."""
+        try:
+            shown = demonstration.read(file)
+        except (demonstration.DemonstrationError, OSError) as error:
+            rospy.logwarn("the demonstration is not shown: %s; the plan names that file, which must be there on this "
+                          "machine, too", error)
+            return
+        _send(self._demonstration, path(header, [_pose(row) for row in shown.poses]))
 
     def _take_forecast(self, message):
         _send(self._forecast, path(message.header, [each.pose for each in message.predictions]))
