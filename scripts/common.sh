@@ -83,6 +83,6 @@ build_workspace() {
 source_workspace() {
   set +u  # catkin's script reads unset variables
   # shellcheck disable=SC1091
-  . "$build_dir/devel/setup.bash" --extend || die "the workspace at $build_dir/devel cannot be sourced"
+  . "$build_dir/devel/setup.bash" --extend || die "the workspace at $build_dir/devel cannot be sourced: remove $build_dir and build anew"
   set -u
 }

@@ -96,7 +96,9 @@ cv::Mat grey_levels(const ZBuffer& buffer) {
 Silhouette hand_silhouette(const std::string& urdf_xml, const PinholeCamera& camera) {
   const urdf::ModelInterfaceSharedPtr model = parse_robot(urdf_xml);
   const auto frame = model->getLink(kOpticalFrame);
-  if (!frame) throw std::invalid_argument("robot description has no link " + kOpticalFrame);
+  if (!frame)
+    throw std::invalid_argument("robot description has no link " + kOpticalFrame +
+                                ", must have it: the camera looks along its z axis");
   std::vector<Part> parts;
   collect(*frame, Isometry3d::Identity(), nullptr, parts);
 

@@ -34,7 +34,9 @@ ImageNoise::ImageNoise(double sigma, std::uint64_t seed) : seed_(seed) {
 }
 
 void ImageNoise::add(cv::Mat& image, std::uint64_t frame) const {
-  if (image.type() != CV_8UC1) throw std::invalid_argument("image type is not mono8");
+  if (image.type() != CV_8UC1)
+    throw std::invalid_argument("image is of OpenCV type " + std::to_string(image.type()) +
+                                ", must be mono8 (CV_8UC1)");
   if (quantiles_.empty()) return;
   std::uint64_t counter = mix(mix(seed_) + frame);
   for (int y = 0; y < image.rows; ++y) {

@@ -31,7 +31,9 @@ Mesh to_mesh(const urdf::Geometry& geometry, const std::string& link) {
 urdf::ModelInterfaceSharedPtr parse_robot(const std::string& urdf_xml) {
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf_xml);
   if (!model || !model->getRoot()) {
-    throw std::invalid_argument("robot description is not a valid URDF");
+    throw std::invalid_argument(
+        "robot description is no valid URDF; the lines above say where, and so does `check_urdf "
+        "FILE`");
   }
   return model;
 }

@@ -67,7 +67,10 @@ inline void write_json(const std::vector<Row>& rows, const BenchmarkParams& para
   }
   std::ofstream file(params.json);
   file << out.dump(1) << '\n';
-  if (!file.flush()) throw std::invalid_argument("--json " + params.json + " cannot be written");
+  if (!file.flush())
+    throw std::invalid_argument(
+        "--json " + params.json +
+        " cannot be written: is its folder there, and may this user write to it?");
 }
 
 }  // namespace jaco_kinematics

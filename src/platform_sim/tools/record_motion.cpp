@@ -96,7 +96,10 @@ std::string row_of(const World& world) {
 // Not before the first sample: until then an argument may be refused.
 void open(const std::string& path, std::ofstream& file) {
   file.open(path);
-  if (!file) throw std::invalid_argument("--out = " + path + " cannot be written");
+  if (!file)
+    throw std::invalid_argument(
+        "--out = " + path +
+        " cannot be written: is its folder there, and may this user write to it?");
 }
 
 // Returns whether the robot is still on its feet.
@@ -112,7 +115,9 @@ bool record(const Recording& recording) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   file << header_of(recording, world) << rows;
   file.close();
-  if (!file) throw std::runtime_error(recording.out + " cannot be written");
+  if (!file)
+    throw std::runtime_error(
+        recording.out + " cannot be written: is its folder there, and may this user write to it?");
   std::printf("%.2f s simulated in %.2f s\n", world.time(), wall.count());
   if (world.fallen()) {
     std::cerr << "record_motion: the robot fell at " << world.time() << " s\n";

@@ -24,7 +24,8 @@ void require_readable_file(const std::string& path) {
   if (std::filesystem::file_size(path, error) > kMaxBytes || error) {
     throw std::invalid_argument(path + ": is too large, must be at most 200 MB");
   }
-  if (!std::ifstream(path)) throw std::invalid_argument(path + ": cannot be read");
+  if (!std::ifstream(path))
+    throw std::invalid_argument(path + ": cannot be read: may this user read it?");
 }
 
 }  // namespace prf_core

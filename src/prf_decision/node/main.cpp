@@ -164,7 +164,8 @@ class DecisionNode {
     count("ticks without " + topic);
     silent_ = topic;
     if (told_.is_due(topic + " silent")) {
-      ROS_WARN("%s is silent, see max_wait", topic.c_str());
+      ROS_WARN("%s is silent for more than max_wait: goes on without it; does its node run?",
+               topic.c_str());
     }
   }
 

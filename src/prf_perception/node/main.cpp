@@ -104,8 +104,10 @@ class TagDetectorNode {
 
   std::vector<TagDetection> detect(const Join::Joined& joined) {
     const sensor_msgs::Image& image = *joined.first;
-    if (image.header.frame_id.empty()) throw std::invalid_argument("its frame_id is empty");
-    if (!joined.second) throw std::invalid_argument("no camera_info has its stamp");
+    if (image.header.frame_id.empty())
+      throw std::invalid_argument("its frame_id is empty, must name the camera's optical frame");
+    if (!joined.second)
+      throw std::invalid_argument("no camera_info has its stamp, must come with each image");
     const auto grey = to_grey(joined.first);
     const CameraIntrinsics camera = to_intrinsics(**joined.second, image);
     camera.validate();
@@ -124,7 +126,11 @@ class TagDetectorNode {
         transforms.push_back(to_transform(array.header, detection));
       } else {
         ++duplicates_;
-        if (doubled_.is_due()) ROS_WARN("tag id %d is more than once in an image", detection.id);
+        if (doubled_.is_due())
+          ROS_WARN(
+              "tag id %d is more than once in an image, must be there once: are two tags of this "
+              "id about, or a mirror?",
+              detection.id);
       }
     }
     if (!transforms.empty()) broadcaster_.sendTransform(transforms);

@@ -22,7 +22,10 @@ Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
 
 FrameTree::FrameTree(const std::string& urdf) {
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf);
-  if (model == nullptr) throw std::invalid_argument("robot_description is no valid URDF");
+  if (model == nullptr)
+    throw std::invalid_argument(
+        "robot_description is no valid URDF; the lines above say where, and so does `check_urdf "
+        "FILE`");
   for (const auto& [name, joint] : model->joints_) {
     const LinkFrame frame{joint->parent_link_name, joint->child_link_name,
                           to_isometry(joint->parent_to_joint_origin_transform)};

@@ -62,8 +62,9 @@ XmlRpcValue fetch(const ros::NodeHandle& handle) {
   XmlRpcValue values;
   handle.getParam(handle.getNamespace(), values);
   if (values.getType() != XmlRpcValue::TypeStruct) {
-    throw std::invalid_argument("no parameters in " + handle.getNamespace() +
-                                ", the node's configuration must be loaded there");
+    throw std::invalid_argument(
+        "no parameters in " + handle.getNamespace() +
+        ", the node's configuration must be loaded there: start it by its launch file");
   }
   return values;
 }
@@ -172,10 +173,13 @@ int run(const std::function<void()>& node_main) {
     ROS_FATAL("parameter refused: %s", error.what());
     return 2;
   } catch (const std::exception& error) {
-    ROS_FATAL("ended by an error that nothing handles: %s: %s", type_name(error).c_str(),
-              prf_core::quoted(error.what()).c_str());
+    ROS_FATAL(
+        "ended by an error that nothing handles, a defect; please report it with this line: %s: %s",
+        type_name(error).c_str(), prf_core::quoted(error.what()).c_str());
   } catch (...) {
-    ROS_FATAL("ended by an error that nothing handles, of unknown type");
+    ROS_FATAL(
+        "ended by an error that nothing handles, of unknown type, a defect; please report it with "
+        "the lines above");
   }
   return 3;
 }

@@ -209,7 +209,9 @@ void write(const std::string& path, const std::string& content) {
   std::ofstream file(path);
   file << content;
   file.close();
-  if (!file) throw std::invalid_argument(path + " cannot be written");
+  if (!file)
+    throw std::invalid_argument(
+        path + " cannot be written: is its folder there, and may this user write to it?");
 }
 
 void run(const Options& options) {

@@ -51,7 +51,9 @@ class SceneRenderer::Robot {
       if (joint.type != urdf::Joint::FIXED) {
         const auto value = state.joints.find(joint.name);
         if (value == state.joints.end()) {
-          throw std::invalid_argument("joint " + joint.name + " has no value");
+          throw std::invalid_argument(
+              "joint " + joint.name +
+              " has no value, joint_states must name every joint of the robot");
         }
         child.rotate(
             Eigen::AngleAxisd(value->second, Vector3d(joint.axis.x, joint.axis.y, joint.axis.z)));

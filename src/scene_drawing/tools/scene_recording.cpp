@@ -86,7 +86,9 @@ const SceneState& SceneRecording::at(double time) const {
   constexpr double kHalfTick = 0.005;  // s
   const auto after = states.upper_bound(std::llround(1e9 * (time + kHalfTick)));
   if (after == states.begin()) {
-    throw std::invalid_argument("time " + std::to_string(time) + " s is before the first tick");
+    throw std::invalid_argument(
+        "time " + std::to_string(time) + " s is before the first tick, must be at least " +
+        std::to_string(1e-9 * static_cast<double>(states.begin()->first)) + " s");
   }
   return std::prev(after)->second;
 }

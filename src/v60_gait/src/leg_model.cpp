@@ -14,7 +14,8 @@ int body_of_joint(const RigidTree& robot, const std::string& name) {
   const auto found = std::find_if(robot.joints.begin(), robot.joints.end(),
                                   [&](const RobotJoint& joint) { return joint.name == name; });
   if (found != robot.joints.end()) return found->body;
-  throw std::invalid_argument("robot description has no movable joint '" + name + "'");
+  throw std::invalid_argument("robot description has no movable joint '" + name +
+                              "', must have it");
 }
 
 }  // namespace
@@ -26,14 +27,15 @@ LegModel::LegModel(const RigidTree& robot, const std::string& name) : name_(name
     const int body = body_of_joint(robot, name + joint);
     const RigidBody& moved = robot.bodies[static_cast<std::size_t>(body)];
     if (moved.parent != parent) {
-      throw std::invalid_argument("joints of leg '" + name + "' are no chain on base_link");
+      throw std::invalid_argument("joints of leg '" + name +
+                                  "' are no chain on base_link, must be");
     }
     segments_[i++] = {moved.joint_in_parent, moved.axis, moved.mass, moved.centre_of_mass};
     parent = body;
   }
   const auto toe = robot.links.find(name + "_toe");
   if (toe == robot.links.end() || toe->second.body != parent) {
-    throw std::invalid_argument("link '" + name + "_toe' is not fixed to the lower leg");
+    throw std::invalid_argument("link '" + name + "_toe' is not fixed to the lower leg, must be");
   }
   toe_in_lower_ = toe->second.pose.translation();
 }

@@ -219,7 +219,9 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& urdf_xml) {
     throw std::invalid_argument("robot description: " + quoted(errors.first()));
   }
   if (!model || !model->getRoot()) {
-    throw std::invalid_argument("robot description is not a valid URDF");
+    throw std::invalid_argument(
+        "robot description is no valid URDF; the lines above say where, and so does `check_urdf "
+        "FILE`");
   }
   return model;
 }

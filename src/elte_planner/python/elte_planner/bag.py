@@ -21,7 +21,7 @@ def _messages(path, topic):
     except bags.BagError as error:
         raise ValueError(str(error)) from None
     if not found:
-        raise ValueError(f"{path}: nothing on topic '{topic}'")
+        raise ValueError(f"{path}: nothing on topic '{topic}', `rosbag info` lists what it holds")
     return found
 
 
@@ -52,7 +52,7 @@ def load_bag(path, topic, target_topic=None):
     if messages[0]._type == "prf_msgs/SkillTrajectory":
         plans = [message for message in messages if message.poses]
         if not plans:
-            raise ValueError(f"{path}: no plan on topic '{topic}'")
+            raise ValueError(f"{path}: no plan on topic '{topic}', `rosbag info` lists what it holds")
         frame = plans[-1].header.frame_id
         times = [duration.to_sec() for duration in plans[-1].time_from_start]
         rows = np.array([_row(pose) for pose in plans[-1].poses])

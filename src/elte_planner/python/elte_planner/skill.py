@@ -57,7 +57,7 @@ def _resampled(rows: Array, nodes: int) -> Array:
     """By arc length, for more dimensions than a Demonstration has."""
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(rows, axis=0), axis=1))])
     if not length[-1] > 0.0:
-        raise ValueError("the demonstration does not move")
+        raise ValueError("the demonstration does not move, must have two different positions")
     return np.column_stack([np.interp(np.linspace(0.0, length[-1], nodes), length, column) for column in rows.T])
 
 
@@ -66,7 +66,7 @@ def _many_dimensional(arrays: list[Array], nodes: int | None, thin: float | None
         raise ValueError(f"thin and alignment '{alignment}' need at most {MOST_SPATIAL} dimensions, "
                          f"not {arrays[0].shape[1]}")
     if nodes is None and len(arrays) > 1:
-        raise ValueError("several demonstrations need a number of nodes")
+        raise ValueError("several demonstrations need a number of nodes: give nodes=")
     same = [array if nodes is None else _resampled(array, nodes) for array in arrays]
     mean: Array = np.asarray(np.mean(same, axis=0), dtype=np.float64)
     return Skill(mean, _even(len(mean)), None, tuple(arrays))

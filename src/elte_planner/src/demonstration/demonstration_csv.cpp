@@ -195,7 +195,9 @@ void save_demonstration(const Demonstration& demonstration, const std::string& p
   }
   std::ofstream file(path);
   file << text.str();
-  if (!file.flush()) throw std::invalid_argument(path + ": cannot be written");
+  if (!file.flush())
+    throw std::invalid_argument(
+        path + ": cannot be written: is its folder there, and may this user write to it?");
 }
 
 }  // namespace elte_planner

@@ -79,7 +79,8 @@ void refuse_unknown(const YAML::Node& map, const std::string& where,
   if (!map.IsMap()) throw std::invalid_argument(where + " must be a map");
   for (const auto& entry : map) {
     const auto key = entry.first.as<std::string>();
-    if (known.count(key) == 0) throw std::invalid_argument(where + " has no key '" + key + "'");
+    if (known.count(key) == 0)
+      throw std::invalid_argument(where + " knows no key '" + key + "', see config/profiles");
   }
 }
 

@@ -132,7 +132,8 @@ const v60_gait::RobotJoint& RobotModel::joint(const std::string& name) const {
   for (const v60_gait::RobotJoint& joint : tree_.joints) {
     if (joint.name == name) return joint;
   }
-  throw std::invalid_argument("robot description has no movable joint '" + name + "'");
+  throw std::invalid_argument("robot description has no movable joint '" + name +
+                              "', must have it");
 }
 
 double RobotModel::mass() const {
@@ -147,7 +148,8 @@ double RobotModel::sphere_radius(const std::string& link) const {
     const bool is_sphere = primitive.kind == v60_gait::CollisionPrimitive::Kind::kSphere;
     if (is_sphere && primitive.link == link) return primitive.size.x();
   }
-  throw std::invalid_argument("link '" + link + "' has no sphere as collision shape");
+  throw std::invalid_argument("link '" + link +
+                              "' has no sphere as collision shape, must have one");
 }
 
 double RobotModel::position(const v60_gait::RobotJoint& joint) const {
@@ -207,7 +209,7 @@ FrameState RobotModel::centre_state(int body) const {
 const v60_gait::LinkFrame& RobotModel::find_link(const std::string& name) const {
   const auto found = tree_.links.find(name);
   if (found != tree_.links.end()) return found->second;
-  throw std::invalid_argument("robot description has no link '" + name + "'");
+  throw std::invalid_argument("robot description has no link '" + name + "', must have it");
 }
 
 FrameState RobotModel::frame(const std::string& link) const {

@@ -14,7 +14,20 @@ EXIT_INVALID, EXIT_VIOLATION = 3, 4
 
 def _checked(data):
     """(verdict, what the invariants say) of a recording."""
-    return judge.judge(data), invariants.check(data)
+    session.waiting("judging")
+    try:
+        return judge.judge(data), invariants.check(data)
+    finally:
+        session.waiting("")
+
+
+def _read(bag):
+    """The recording in a bag."""
+    session.waiting(f"reading {bag}")
+    try:
+        return recording.read(bag)
+    finally:
+        session.waiting("")
 
 
 def _exit_code(verdict, found):
@@ -34,7 +47,7 @@ def judge_main(words: list[str]) -> int:
     def action():
         why = ""
         try:
-            data = recording.read(options.bag)
+            data = _read(options.bag)
             verdict, found = _checked(data)
             why = cause.sentence(data, verdict)
         except recording.RecordingError as error:
@@ -62,7 +75,7 @@ def inspect_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
-        data = recording.read(options.bag)
+        data = _read(options.bag)
         verdict = judge.judge(data)
         if options.json:
             names = ("time_s", "off_axis_mm", "to_stand_off_mm", "following_mm", "event")
@@ -83,16 +96,18 @@ def report_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
-        data = recording.read(options.bag)
+        data = _read(options.bag)
         verdict, found = _checked(data)
         description = data.description
         skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
                  or session.packaged("demonstrations", "inspect_box.csv"))
         content = {**description, **verdict.as_json(), "cause": cause.sentence(data, verdict),
                    "invariants": found.as_json(), "reaction": reaction.times(data)}
+        session.waiting("drawing film, key frames and figures")
         report.write(options.out, options.bag, data, content, demonstration.read(skill),
                      pictures.of(options.bag, data, verdict.figures) if verdict.figures
                      else report.NOTHING)
+        session.waiting("")
         print(options.out)
         return _exit_code(verdict, found)
     return session.guarded("report", action)
@@ -109,9 +124,11 @@ def digest_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
+        session.waiting("reading every message")
         ours = digest.digests(options.bag)
         differences = (digest.differences(ours, digest.digests(options.other))
                        if options.other else None)
+        session.waiting("")
         if options.json:
             files.write_json(options.json, {"differences": differences, "streams": [
                 {"topic": topic, "publisher": publisher, "messages_count": entry.messages,

@@ -37,7 +37,7 @@ def opened(path: str) -> Iterator[rosbag.Bag]:
     """
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
-            raise BagError(f"{path}: is no file")
+            raise BagError(f"{path}: is no file, must be a bag")
     except FileNotFoundError:
         raise BagError(f"{path}: there is no such bag") from None
     except OSError as error:
@@ -111,7 +111,7 @@ def require_types(bag: rosbag.Bag, names: Collection[str]) -> None:
             raise BagError(f"{where} holds {connection.datatype}, must be {kind}")
         ours = roslib.message.get_message_class(kind)
         if ours is None:
-            raise BagError(f"{where} holds {kind}, which is not built here")
+            raise BagError(f"{where} holds {kind}, which is not built here: source the workspace that has it")
         if connection.md5sum == ours._md5sum:
             continue
         lacking = _lacking(ours, connection.msg_def)

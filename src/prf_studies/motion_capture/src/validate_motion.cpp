@@ -278,7 +278,10 @@ std::size_t run(const Study& study) {
   std::ofstream file;
   if (!study.json.empty()) {
     file.open(study.json);
-    if (!file) throw std::invalid_argument("--json = " + study.json + " cannot be written");
+    if (!file)
+      throw std::invalid_argument(
+          "--json = " + study.json +
+          " cannot be written: is its folder there, and may this user write to it?");
   }
   const std::string urdf =
       study.captures.empty() ? platform_sim::installed_robot_description() : "";

@@ -124,9 +124,9 @@ def _opened(path: str) -> Reader:
     """Raises ExportError. Only a file is opened: a device or a pipe may have no end."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
-            raise ExportError(f"{path}: is no file")
+            raise ExportError(f"{path}: is no file, must be a ROS 1 bag")
         if not os.path.getsize(path):
-            raise ExportError(f"{path}: is empty")
+            raise ExportError(f"{path}: is empty, must be a ROS 1 bag")
     except OSError as error:
         raise ExportError(f"{path}: cannot be read: {error.strerror}") from None
     return Reader(Path(path))

@@ -310,7 +310,7 @@ class _Reader:
     def poses(self, topic):
         values = np.array(self._rows[topic], dtype=float).reshape(-1, 7)
         if np.any(np.all(values[:, 3:] == 0.0, axis=1)):
-            raise ValueError(f"{topic} has a pose without orientation")
+            raise ValueError(f"{topic} has a pose without orientation: its quaternion is 0, must have length 1")
         return Poses(self.stamps(topic), values)
 
     def progress(self):
@@ -365,7 +365,8 @@ def read(path: str, tag_id: int = 0, without: Sequence[str] = ()) -> Recording:
 def _recording(path, reader, images):
     arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
     if arm_base_in_body is None:
-        raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}")
+        raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}, must: is it the bag "
+                             "of a trial?")
     return Recording(
         ticks=reader.stamps("joint_states"),
         tag=reader.poses("ground_truth/tag"),

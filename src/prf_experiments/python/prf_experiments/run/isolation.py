@@ -32,7 +32,7 @@ def prefix() -> list[str]:
         raise IsolationError(f"isolated:=true needs the program unshare: {error}") from None
     if probe.returncode != 0:
         raise IsolationError("isolated:=true is not possible here, this user may make no network "
-                             f"namespace: {probe.stderr.strip()}")
+                             f"namespace: {probe.stderr.strip()}; leave it out, or allow user namespaces")
     return words
 
 

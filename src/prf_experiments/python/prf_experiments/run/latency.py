@@ -201,7 +201,7 @@ def _measure_apart(options, loops):
              f"--motion={options.motion}", f"--gait={options.gait}", f"--loops={loops}",
              f"--hops={path}"], check=False)
         if done.returncode != 0:
-            raise session.SessionError("the measurement failed")
+            raise session.SessionError("the measurement failed, the lines above say why")
         with open(path, encoding="utf-8") as stream:
             return json.load(stream)
 

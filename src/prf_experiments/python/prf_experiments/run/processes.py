@@ -47,7 +47,7 @@ def reserved_port() -> Iterator[int]:
                 continue
             yield port
             return
-    raise ProcessError("no free port for a ROS master between 11500 and 20000")
+    raise ProcessError("no free port for a ROS master between 11500 and 20000: end masters that are no longer needed")
 
 
 def master_environment(port: int, log_folder: str) -> dict[str, str]:
@@ -118,7 +118,7 @@ class Launch:
         while not self._started.wait(0.05):
             self.check()
             if time.monotonic() > end:
-                raise ProcessError(f"the nodes did not start within {timeout:g} s")
+                raise ProcessError(f"the nodes did not start within {timeout:g} s, see {self._log_file}")
 
     def exit_code(self, node: str) -> int | None:
         """Exit code of a node that has ended, None while it runs."""
@@ -199,7 +199,7 @@ class Recorder:
                                + why + self._last_line())
         if shutil.disk_usage(os.path.dirname(self.bag)).free < self.MIN_FREE:
             raise ProcessError(f"disk full: less than {self.MIN_FREE >> 20} MiB are free for "
-                               + self.bag)
+                               f"{self.bag}: make room, or give another folder with results:=")
 
     def _last_line(self):
         with open(self._log_file, encoding="utf-8", errors="replace") as log:

@@ -41,10 +41,11 @@ def repeatable(chosen: dict) -> list[catalogue.Fault]:
     faults = disturbances.all_faults(chosen)
     for fault in faults:
         if not fault.topic:
-            raise session.SessionError(f"the fault {fault.word} is none of the messages: they do "
-                                       "not determine what the nodes said")
+            raise session.SessionError(f"the bag has the fault {fault.word}, which is none of the messages: "
+                                       "they alone do not give its outputs again; replay a bag without it")
         if fault.name == "second":
-            raise session.SessionError(f"the fault {fault.word} needs two publishers, a replay has one")
+            raise session.SessionError(f"the bag has the fault {fault.word}, of two publishers: a replay "
+                                       "has one; replay a bag without it")
     return faults
 
 
@@ -56,7 +57,8 @@ def check(bag: str) -> None:
         bags.require_types(content, {*PLAYED, *topics.OUTPUTS, *topics.TRANSFORMS})
         found = bags.counts(content)
         if not any(found.get(name.lstrip("/")) for name in COMPARED):
-            raise bags.BagError(f"{bag}: no message of any output, there is nothing to compare with")
+            raise bags.BagError(f"{bag}: no message of any output, there is nothing to compare with: must "
+                                "be a trial's bag")
 
 
 def replay(bag: str, folder: str, rate: float) -> str:

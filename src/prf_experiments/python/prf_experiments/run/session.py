@@ -61,7 +61,8 @@ def check_space(folder: str) -> None:
     free = shutil.disk_usage(folder).free
     if free < NEEDED_SPACE:
         raise SessionError(f"disk full: {free >> 20} MiB are free in {folder}, "
-                           f"a recording may need {NEEDED_SPACE >> 20}")
+                           f"a recording may need {NEEDED_SPACE >> 20}: make room, or give another folder "
+                           "with results:=")
 
 
 @contextlib.contextmanager
@@ -70,7 +71,7 @@ def _refused_in_one_line(results):
         yield
     except OSError as error:
         raise SessionError(f"results folder {results} cannot be written: "
-                           f"{error.strerror}") from None
+                           f"{error.strerror}; give another with results:=") from None
 
 
 def use_folder(folder: str) -> str:
@@ -99,7 +100,7 @@ def create_folder(results: str, name: str) -> str:
 class ProgressLine:
     """What is going on: one line rewritten on a terminal, a line every five seconds elsewhere."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._terminal = sys.stdout.isatty()
         self._period = 0.5 if self._terminal else 5.0
         self._next = time.monotonic()
@@ -121,6 +122,16 @@ class ProgressLine:
         if self._open:
             sys.stdout.write("\n")
             self._open = False
+
+
+def waiting(text: str) -> None:
+    """On a terminal, says on stderr what a command is at, in place of what it said before; "" ends that.
+
+    Elsewhere nothing: what commands print is read by programs.
+    """
+    if sys.stderr.isatty():
+        sys.stderr.write("\r\x1b[K" + text)
+        sys.stderr.flush()
 
 
 @dataclass
@@ -148,10 +159,15 @@ class Session:
             os.environ.update(processes.master_environment(port, os.path.join(self.folder, "log")))
             launch = processes.Launch(port, self.launch_file, self.launch_arguments,
                                       os.path.join(self.folder, "log"))
-            stack.callback(launch.stop)
+            stack.callback(self._end, launch)
             self.progress.show(f"starting the nodes, master on port {port}", always=True)
             launch.wait_until_started()
             yield launch
+
+    def _end(self, launch):
+        self.progress.show("ending the nodes", always=True)
+        launch.stop()
+        self.progress.close()
 
     @contextlib.contextmanager
     def recording(self) -> Iterator[processes.Recorder]:
@@ -176,7 +192,8 @@ class Session:
             if absent and time.monotonic() > end:
                 topic, publisher, subscriber = sorted(absent)[0]
                 raise SessionError(f"not connected after {CONNECT_TIMEOUT:g} s: {topic} from "
-                                   f"{publisher} to {subscriber} ({len(absent)} links missing)")
+                                   f"{publisher} to {subscriber} ({len(absent)} links missing); the nodes' "
+                                   f"logs are in {self.log('')}")
             self.progress.show(f"connecting the nodes, {len(absent)} links missing")
             time.sleep(0.2)
 
@@ -202,6 +219,7 @@ class Session:
 
     def close(self, launch: processes.Launch, recorder: processes.Recorder) -> None:
         """The closed bag, after every message under way has reached the recorder."""
+        self.progress.show("waiting for the recorder to write the last messages", always=True)
         recorder.wait_until_idle()
         launch.check(may_end=[self.driver, *self.may_end])
         recorder.close()

@@ -150,7 +150,7 @@ def check_time(values: dict) -> None:
     needed = float(times[-1] - times[0])
     if values["time_limit"] < needed:
         raise args.ArgumentError(f"time_limit:={values['time_limit']:g} is too short, the "
-                                 f"demonstration takes {needed:g} s")
+                                 f"demonstration takes {needed:g} s: give that or more")
 
 
 def run(values: dict, folder: str | None = None) -> int:

@@ -43,29 +43,32 @@ def levels(text: str) -> list[float]:
 
 
 def positive(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
-    return value
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number, at least 1")
+    return int(text)
 
 
 def hours(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
     if not 0.02 <= value <= 24.0:
-        raise argparse.ArgumentTypeError(f"{text} is not 0.02 .. 24 hours")
+        raise argparse.ArgumentTypeError(f"'{text}' must be 0.02 .. 24 hours")
     return value
 
 
 def plain_name(text: str) -> str:
     if not text or text != os.path.basename(text) or text.startswith("."):
-        raise argparse.ArgumentTypeError(f"'{text}' is not the plain name of a folder")
+        raise argparse.ArgumentTypeError(f"'{text}' must be the plain name of a folder, without / and not "
+                                         "beginning with a dot")
     return text
 
 
 def address(text: str) -> str:
     protocol, separator, place = text.partition("://")
     if not (protocol and separator and place):
-        raise argparse.ArgumentTypeError(f"'{text}' is not an address as tcp://host:8786")
+        raise argparse.ArgumentTypeError(f"'{text}' must be an address, as tcp://host:8786")
     return text
 
 
@@ -149,7 +152,7 @@ def parse(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
         if options.seeds and "seed" in options.values:
             raise args.ArgumentError("--seeds and seed:= say the same, give one of them")
         if len(options.values.get("results", [""])) > 1:
-            raise args.ArgumentError("results:= takes one folder")
+            raise args.ArgumentError("results:= has several folders, must be one")
     else:
         options.values = trial_arguments.complete(args.parse(named, trial_arguments.TRIAL), named)
     return options, named

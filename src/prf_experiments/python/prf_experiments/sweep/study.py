@@ -173,7 +173,9 @@ def run(study: Study, options: argparse.Namespace, command: str, named: Sequence
         files.write(options.results_page,
                     results_page(study, reproducing(options, named), study.text(summary)))
     index = os.path.join(folder, "index.html")
+    session.waiting("drawing the page")
     write_page(index, study, command, versions, results, summary)
+    session.waiting("")
     print(study.text(summary) + "\n" + index)
     if any(result["verdict"] == "INVALID" and not study.may_be_invalid(result["arguments"])
            for result in results):

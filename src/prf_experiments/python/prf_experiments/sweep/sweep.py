@@ -62,12 +62,14 @@ def locked(folder: str) -> Iterator[None]:
         os.makedirs(os.path.join(folder, "trials"), exist_ok=True)
         stream = open(os.path.join(folder, ".lock"), "w", encoding="utf-8")
     except OSError as error:
-        raise SessionError(f"{folder} cannot be written: {error.strerror}") from None
+        raise SessionError(f"{folder} cannot be written: {error.strerror}; give another folder with "
+                           "results:=") from None
     with stream:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            raise SessionError(f"another sweep is at work in {folder}") from None
+            raise SessionError(f"another sweep is at work in {folder}: wait for its end, or "
+                               "give another --name") from None
         yield
 
 
@@ -173,14 +175,15 @@ def executor(options: SweepParams) -> Iterator[tuple[concurrent.futures.Executor
         client = distributed.Client(options.scheduler, timeout=CONNECT_TIMEOUT,
                                     set_as_default=False)
     except (OSError, ValueError, distributed.TimeoutError) as error:
-        raise SessionError(f"no Dask scheduler answers at {options.scheduler}: {error}") from None
+        raise SessionError(f"no Dask scheduler answers at {options.scheduler}: {error}; start "
+                           "one with `dask-scheduler`, or leave --scheduler out") from None
 
     def lacking():
         try:
             workers = client.scheduler_info()["workers"]
         except (OSError, distributed.TimeoutError) as error:
             raise SessionError(f"the Dask scheduler at {options.scheduler} no longer answers: "
-                               f"{error}") from None
+                               f"{error}; when it is back, the same command goes on") from None
         return "" if workers else (f"no worker has joined {options.scheduler}, waiting; start one with "
                                    f"`dask-worker {options.scheduler}`")
     with client:
@@ -194,7 +197,7 @@ def run(trials: list[dict], folder: str, options: SweepParams, versions: dict,
     names = [trial_arguments.name(values) for values in trials]
     for row, name in enumerate(names):
         if name in names[:row]:
-            raise SessionError(f"two trials are the same, both are called {name}")
+            raise SessionError(f"two trials are the same, both are called {name}: give each value once")
     with locked(folder):
         begin(folder, versions, options.any_version)
         results = {row: content for row, values in enumerate(trials)

@@ -21,10 +21,10 @@ def read_parameters() -> guide.GuideParams:
     known = [entry.name for entry in fields(guide.GuideParams)]
     for name in known:
         if name not in given:
-            raise ValueError(f"{name} is not set")
+            raise ValueError(f"{name} is not set, must be: start the node by teach.launch")
     for name in given:
         if name not in known:
-            raise ValueError(f"{name} is unknown")
+            raise ValueError(f"{name} is unknown, must be among those of config/teach_guide.yaml")
     parameters = guide.GuideParams(**given)
     parameters.validate()
     return parameters

@@ -112,19 +112,22 @@ def read_hdf5(path: str) -> tuple[np.ndarray, np.ndarray]:
 
 def clean(times: np.ndarray, poses: np.ndarray, path: str) -> tuple[np.ndarray, np.ndarray]:
     """Rows in rising time with unit quaternions; a row of the same time as the one before goes."""
-    if not (np.all(np.isfinite(times)) and np.all(np.isfinite(poses))):
-        raise DemonstrationError(f"{path}: a number is not finite")
+    finite = np.isfinite(times) & np.all(np.isfinite(poses), axis=1)
+    if not np.all(finite):
+        raise DemonstrationError(f"{path}: row {int(np.argmin(finite)) + 1} has a number that is "
+                                 "not finite")
     if np.any(np.diff(times) < 0.0):
         row = int(np.argmax(np.diff(times) < 0.0)) + 2
-        raise DemonstrationError(f"{path}: time goes back at row {row}")
+        raise DemonstrationError(f"{path}: time goes back at row {row}, must rise")
     kept = np.append(True, np.diff(times) > 0.0)[:len(times)]
     times, poses = times[kept], poses[kept].copy()
     norms = np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
     if np.any(norms < MIN_NORM):
-        raise DemonstrationError(f"{path}: row {int(np.argmin(norms)) + 1} has no orientation")
+        raise DemonstrationError(f"{path}: row {int(np.argmin(norms)) + 1} has no orientation: its "
+                                 "quaternion must have a length above 0")
     poses[:, 3:] /= norms
     if len(times) < 2:
-        raise DemonstrationError(f"{path}: {len(times)} rows are no motion")
+        raise DemonstrationError(f"{path}: {len(times)} rows are no motion, must be at least 2")
     span = times[-1] - times[0]
     if span > LONGEST:
         unit = next((unit for unit, scale in (("ms", 1e3), ("us", 1e6), ("ns", 1e9))
@@ -169,12 +172,15 @@ def convert(path: str, target: np.ndarray | None, command: str) -> demonstration
 
 
 def pose(text: str) -> np.ndarray:
-    numbers = np.array([float(word) for word in text.split()])
+    try:
+        numbers = np.array([float(word) for word in text.split()])
+    except ValueError:
+        numbers = np.empty(0)
     if numbers.shape != (7,) or not np.all(np.isfinite(numbers)):
-        raise argparse.ArgumentTypeError("must be seven numbers: x y z qx qy qz qw")
+        raise argparse.ArgumentTypeError(f"'{text}' must be seven numbers: x y z qx qy qz qw")
     norm = np.linalg.norm(numbers[3:])
     if norm < MIN_NORM:
-        raise argparse.ArgumentTypeError("its quaternion is no orientation")
+        raise argparse.ArgumentTypeError("its quaternion is no orientation, must have a length above 0")
     return np.append(numbers[:3], numbers[3:] / norm)
 
 

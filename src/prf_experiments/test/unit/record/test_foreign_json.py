@@ -25,7 +25,7 @@ DESCRIPTION = {"command": "run_trial motion:=light", "versions": {"commit": "abc
                "arguments": {"motion": "light", "seed": 1, "fault": "", "framework": True,
                              "demonstration": None, "scenario": "treadmill"}}
 EVENT = {"stamp": 12345678901, "fault": "drop:tag_detections@3", "what": ""}
-VALUES = [None, True, -1, 1e308, float("nan"), float("inf"), 10**40, "", "x" * 300, "\x00\ud800", [], [[]],
+VALUES: list = [None, True, -1, 1e308, float("nan"), float("inf"), 10**40, "", "x" * 300, "\x00\ud800", [], [[]],
           {}, {"a": {}}]
 PIECES = ["null", "NaN", "1e999", "[" * 2000, "]", "{", "}", ",", '"', ":", "\\u0000", "\x00", "\ufeff"]
 

@@ -23,12 +23,12 @@ class Arguments(unittest.TestCase):
         return error.getvalue()
 
     def test_bad_ones_are_refused_with_a_reason(self):
-        for words, why in ((["tabel"], "did you mean table?"), (["table", "--seeds", "0"], "positive"),
+        for words, why in ((["tabel"], "did you mean table?"), (["table", "--seeds", "0"], "at least 1"),
                            (["table", "motion:=wild"], "valid: none|"),
                            (["table", "--seeds", "2", "seed:=3"], "say the same"),
                            (["compare", "--name", "a/b"], "plain name"),
                            (["table", "results:=a,b"], "one folder"),
-                           (["table", "--scheduler", "host"], "not an address"),
+                           (["table", "--scheduler", "host"], "must be an address"),
                            (["table", "--keep-bags", "some"], "must be one of failed, all, none"),
                            (["table", "keep_bag:=true"], "unknown argument"),
                            (["seed:=1,2"], "invalid seed"), (["--seeds", "2"], "unknown option"),
