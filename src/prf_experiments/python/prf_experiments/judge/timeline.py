@@ -116,7 +116,7 @@ def _logged_warnings(data):
 
 def _faults(data):
     for fault, first, last, count, told in reaction.episodes(data):
-        if world.is_disturbance(fault):  # told as the world's
+        if world.is_disturbance(fault) or fault in world.camera_words(data):  # told as the world's
             continue
         span = f", {count} times within {1e-9 * (last - first):.2f} s" if count > 1 else ""
         yield Event(first, "fault", f"FAULT {fault}{span}" + "".join(": " + what for what in told))

@@ -72,11 +72,33 @@ def is_disturbance(word: str) -> bool:
     return word.partition(":")[0] in disturbances.KINDS
 
 
+CAMERA = {"occlude": "something passed before the camera", "dark": "the exposure failed"}
+
+
+def camera_words(data: Recording) -> dict[str, str]:
+    """{fault: what it stands for} of the disturbances of the camera, which the injector acts on."""
+    arguments = data.description.get("arguments", {})
+    try:
+        asked, seed = str(arguments.get("disturb") or ""), int(arguments.get("seed") or 0)
+        return {word: CAMERA[one.name] for one in disturbances.parse(asked) if one.name in CAMERA
+                for word in disturbances.as_faults(asked, seed).split(",")
+                if word.startswith(one.kind.fault + "@")}
+    except (disturbances.DisturbanceError, ValueError):  # of another version
+        return {}
+
+
+def camera_disturbed(data: Recording) -> Iterator[Happening]:
+    words = camera_words(data)
+    for word, first, last, _, _ in reaction.episodes(data):
+        if word in words:
+            yield Happening(first, last, "camera covered" if "passed" in words[word] else "dark", words[word])
+
+
 def faults(data: Recording) -> Iterator[Happening]:
     """Injected ones; what is done and undone, as kill and start again, is one."""
     found: dict[str, list[tuple[int, int]]] = {}
     for word, first, last, _, _ in reaction.episodes(data):
-        if not is_disturbance(word):
+        if not is_disturbance(word) and word not in camera_words(data):
             found.setdefault(word, []).append((first, last))
     for word, times in found.items():
         try:
@@ -91,7 +113,7 @@ def faults(data: Recording) -> Iterator[Happening]:
 
 
 FINDERS: tuple[Callable[[Recording], Iterator[Happening]], ...] = (box_pushed, disturbed,
-                                                               faults)
+                                                               camera_disturbed, faults)
 
 
 def events(data: Recording) -> list[Happening]:

@@ -152,7 +152,7 @@ def parse(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
         if options.seeds and "seed" in options.values:
             raise args.ArgumentError("--seeds and seed:= say the same, give one of them")
         if len(options.values.get("results", [""])) > 1:
-            raise args.ArgumentError("results:= has several folders, must be one")
+            raise args.ArgumentError("results:= has several folders, must be one folder")
     else:
         options.values = trial_arguments.complete(args.parse(named, trial_arguments.TRIAL), named)
     return options, named

@@ -51,6 +51,15 @@ class World(unittest.TestCase):
         self.assertEqual((data.seconds(event.begin), data.seconds(event.end)), (2.0, 3.0))
         self.assertTrue(event.injected)
 
+    def test_a_disturbance_of_the_camera_is_the_worlds_and_no_injected_fault(self):
+        data = synthetic.make_recording(8.0)
+        data.description = {"arguments": {"disturb": "occlude:1@4", "seed": 1}}
+        data.fault_events = [recording.FaultEvent(int(data.ticks[row]), "occlusion:0.95@4-5", "")
+                             for row in range(400, 500, 3)]
+        event, = world.events(data)
+        self.assertEqual((event.text, event.injected), ("something passed before the camera", False))
+        self.assertNotIn("FAULT", timeline.text(data, judge.judge(data)))
+
     def test_a_fault_that_this_version_does_not_know_is_an_event_all_the_same(self):
         data = synthetic.make_recording(5.0)
         data.fault_events = [recording.FaultEvent(int(data.ticks[100]), "earthquake@1", "")]
