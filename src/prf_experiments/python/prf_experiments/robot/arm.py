@@ -14,7 +14,7 @@ class Chain:
 
     def __init__(self, urdf: str, base: str, tip: str):
         robot = ElementTree.fromstring(urdf)
-        above = {joint.find("child").attrib["link"]: joint for joint in robot.findall("joint")}
+        above = {_link(joint, "child"): joint for joint in robot.findall("joint")}
         self._parts: list[tuple[np.ndarray, np.ndarray | None]] = []
         self.joints: list[str] = []
         link = tip
@@ -26,7 +26,7 @@ class Chain:
             if moves:
                 self.joints.insert(0, joint.attrib["name"])
             self._parts.insert(0, (origin(joint), _numbers(joint.find("axis"), "xyz", "1 0 0") if moves else None))
-            link = joint.find("parent").attrib["link"]
+            link = _link(joint, "parent")
 
     def poses(self, positions: ArrayLike) -> np.ndarray:
         """Poses (n, 7) of the tip in the base at joint positions (n, joints), rad."""
@@ -39,6 +39,13 @@ class Chain:
                 pose = geometry.compose(pose, geometry.make(np.zeros((len(positions), 3)), turned))
                 column += 1
         return pose
+
+
+def _link(joint: ElementTree.Element, role: str) -> str:
+    element = joint.find(role)
+    if element is None:
+        raise ValueError(f"joint {joint.attrib.get('name')} of the URDF has no <{role}>; see what check_urdf says")
+    return element.attrib["link"]
 
 
 def _numbers(element, name: str, default: str) -> np.ndarray:

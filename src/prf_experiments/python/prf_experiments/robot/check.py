@@ -3,6 +3,7 @@
 import sys
 import time
 
+import genpy
 import rosgraph
 import rospy
 import sensor_msgs.msg
@@ -44,7 +45,7 @@ class Listener:
 
     def __init__(self, expected: list[Expected], types: dict[str, str]):
         self.heard = {one.topic: Heard(kind=types.get(one.topic, "")) for one in expected}
-        self.newest: dict[str, object] = {}
+        self.newest: dict[str, genpy.Message] = {}
         self._subscribers = [
             rospy.Subscriber(one.topic, CLASSES[one.kind], self._receive, one.topic, queue_size=1000)
             for one in expected if types.get(one.topic) == one.kind]
