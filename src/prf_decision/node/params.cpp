@@ -50,6 +50,7 @@ ReferenceParams load_reference(prf_ros::PrivateParameters& values) {
   params.adaptation = values.flag("framework") ? Adaptation::kContinuous : Adaptation::kOnce;
   params.lead = checked_seconds("lead", values.number("lead"));
   params.approach_length = values.number("approach_length");
+  params.view_angle = values.number("view_angle");
   params.tracking_tolerance = values.number("tracking_tolerance");
   const auto speed = values.numbers("catch_up_speed", 2);
   params.catch_up = {speed[0], speed[1], values.number("catch_up_time")};

@@ -38,6 +38,7 @@ void ReferenceParams::validate() const {
   using prf_core::require_between;
   require_between("lead", to_seconds(lead), 0, 1, "s");
   require_between("approach_length", approach_length, 0, 2, "m");
+  require_between("view_angle", view_angle, 0.01, 4, "rad");
   require_between("tracking_tolerance", tracking_tolerance, 1e-4, 0.5, "m");
   catch_up.validate();
 }
@@ -54,7 +55,6 @@ void ReferenceGenerator::update_plan(const PlannedSkill& planned) {
 
 void ReferenceGenerator::replace_plan(const PlannedSkill& planned) {
   approach_ = Approach();
-  view_.reset();
   update_plan(planned);
 }
 
@@ -83,30 +83,19 @@ void ReferenceGenerator::follow_target(const ReferenceInput& input) {
   target_ = predicted_target(*input.forecast, input.stamp + params_.lead).target;
 }
 
-// Also when the target is known only as it was last seen: then the view is kept of that place.
-void ReferenceGenerator::keep_view(const ReferenceInput& input) {
-  if (!plan_ || !setpoint_) return;
-  const Pose& start = plan_->poses.front();
-  const bool on_way = input.rewinding && cursor_ == 0 && target_;
-  const bool is_away = (setpoint_->position - start.position).norm() > params_.tracking_tolerance;
-  if (on_way && is_away) view_.set_out(*setpoint_, target_->pose.position);
-  if (!on_way && view_.is_under_way()) view_.arrive(start.orientation, setpoint_->orientation);
-}
-
 bool ReferenceGenerator::is_relative_to_target() const {
   return params_.adaptation == Adaptation::kContinuous && plan_ && target_ &&
          approach_.weight(cursor_, params_.approach_length) > 0;
 }
 
+// The view is kept also of a target that is known only as it was last seen.
 MovingPose ReferenceGenerator::hand_on_plan(Direction direction) const {
-  MovingPose hand = is_relative_to_target()
-                        ? approach_.hand(cursor_, direction, *target_, params_.approach_length)
-                        : hand_at(*plan_, cursor_, direction);
-  const double fraction = cursor_ / static_cast<double>(plan_->poses.size() - 1);
-  hand.pose.orientation = view_.is_under_way()
-                              ? view_.orientation_at(setpoint_->position, target_->pose.position)
-                              : view_.on_skill(hand.pose.orientation, fraction);
-  return hand;
+  const MovingPose hand = is_relative_to_target() ? approach_.hand(cursor_, direction, *target_,
+                                                                   params_.approach_length)
+                                                  : hand_at(*plan_, cursor_, direction);
+  if (params_.adaptation == Adaptation::kOnce || !target_) return hand;
+  return kept_in_view(hand, setpoint_ ? setpoint_->position : hand.pose.position, *target_,
+                      plan_->goal_in_target, params_.view_angle);
 }
 
 std::optional<MovingPose> ReferenceGenerator::reference(const ReferenceInput& input) const {
@@ -126,7 +115,6 @@ std::optional<MovingPose> ReferenceGenerator::reference(const ReferenceInput& in
 ReferenceResult ReferenceGenerator::step(const ReferenceInput& input) {
   move_cursor(input);
   follow_target(input);
-  keep_view(input);
   const std::optional<MovingPose> wanted = reference(input);
   if (input.hand && (holds(input.state) || !setpoint_)) setpoint_ = input.hand;
   ReferenceResult result;

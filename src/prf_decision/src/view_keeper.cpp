@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/view_keeper.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace prf_decision {
+namespace {
 
-void ViewKeeper::set_out(const Pose& hand, const Eigen::Vector3d& target) {
-  if (!line_) line_ = Line{hand.orientation, target - hand.position};
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// Where the target belongs in the hand's frame, `line_of_sight` away; none: too near.
+std::optional<Vector3d> centred(const Pose& goal_in_target, double line_of_sight) {
+  Vector3d place = -(goal_in_target.orientation.conjugate() * goal_in_target.position);
+  const double depth = line_of_sight * line_of_sight - place.head<2>().squaredNorm();
+  if (!(depth > 0)) return std::nullopt;
+  place.z() = std::sqrt(depth);
+  return place;
 }
 
-Eigen::Quaterniond ViewKeeper::orientation_at(const Eigen::Vector3d& position,
-                                              const Eigen::Vector3d& target) const {
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(line_->sight, target - position);
-  return (turn * line_->hand).normalized();
+Quaterniond turned(const Quaterniond& planned, const Vector3d& line_of_sight,
+                   const Pose& goal_in_target, double view_angle) {
+  const auto place = centred(goal_in_target, line_of_sight.norm());
+  if (!place) return planned;
+  const Eigen::AngleAxisd off(Quaterniond::FromTwoVectors(planned * *place, line_of_sight));
+  const double angle = off.angle() - view_angle * std::tanh(off.angle() / view_angle);
+  return (Quaterniond(Eigen::AngleAxisd(angle, off.axis())) * planned).normalized();
 }
 
-void ViewKeeper::arrive(const Eigen::Quaterniond& start, const Eigen::Quaterniond& reached) {
-  line_.reset();
-  offset_ = (start.conjugate() * reached).normalized();
-}
+}  // namespace
 
-Eigen::Quaterniond ViewKeeper::on_skill(const Eigen::Quaterniond& planned, double fraction) const {
-  if (!offset_) return planned;
-  const double s = std::clamp(2 * fraction, 0.0, 1.0);
-  const double weight = 1 - s * s * (3 - 2 * s);
-  return (planned * Eigen::Quaterniond::Identity().slerp(weight, *offset_)).normalized();
+MovingPose kept_in_view(const MovingPose& planned, const Vector3d& from, const MovingPose& target,
+                        const Pose& goal_in_target, double view_angle) {
+  if (!(view_angle < M_PI)) return planned;
+  constexpr double kStep = 1e-3;  // s, over which the turning is differenced
+  const Vector3d line_of_sight = target.pose.position - from;
+  const Vector3d later = line_of_sight + kStep * (target.linear_velocity - planned.linear_velocity);
+  const Quaterniond planned_later =
+      prf_core::exp_so3(kStep * planned.angular_velocity) * planned.pose.orientation;
+
+  MovingPose hand = planned;
+  hand.pose.orientation =
+      turned(planned.pose.orientation, line_of_sight, goal_in_target, view_angle);
+  hand.angular_velocity =
+      prf_core::rotation_between(hand.pose.orientation,
+                                 turned(planned_later, later, goal_in_target, view_angle)) /
+      kStep;
+  return hand;
 }
 
 }  // namespace prf_decision

@@ -11,8 +11,7 @@
 //                                          for `lead` after the tick; none during a violation;
 //                                          adapted once: the plan's last pose
 //   waiting, stopped             stands    none; the set-point begins where the hand is measured
-// On a straight way to the start of the skill the hand keeps its view of the target
-// (view_keeper.hpp).
+// On its way the hand keeps its view of the target (view_keeper.hpp), but when adapted once.
 // Without a reference the set-point stands still; in waiting and stopped there is no set-point,
 // and the arm holds. While the arm does not follow, the cursor waits: forward always, back where it
 // would lead away from the measured hand.
@@ -39,6 +38,7 @@ struct ReferenceParams {
   Adaptation adaptation = Adaptation::kContinuous;
   Duration lead{0};               // the tracked goal is taken this long after the tick
   double approach_length = 0;     // end of the skill that is executed relative to the target, m
+  double view_angle = 3.2;        // view_keeper.hpp, rad; 3.2: the hand stays as planned
   double tracking_tolerance = 0;  // distance of the set-point from its reference, m
   CatchUpParams catch_up;
 
@@ -50,7 +50,6 @@ struct ReferenceInput {
   Stamp stamp{0};
   Duration since_last_tick{0};
   ExecutionState state = ExecutionState::kWaiting;
-  bool rewinding = false;            // the state is reverse, to begin at the start of the skill
   std::optional<Pose> hand;          // as measured; none: not known
   const TargetForecast* forecast{};  // null: none that the hand may follow
   bool violation = false;            // a guard reports one: the target is not tracked
@@ -100,7 +99,6 @@ class ReferenceGenerator {
  private:
   void move_cursor(const ReferenceInput& input);
   [[nodiscard]] bool leads_away(const ReferenceInput& input, double cursor) const;
-  void keep_view(const ReferenceInput& input);
   void follow_target(const ReferenceInput& input);
   [[nodiscard]] bool is_relative_to_target() const;
   [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
@@ -110,7 +108,6 @@ class ReferenceGenerator {
   std::shared_ptr<const Trajectory> plan_;
   Approach approach_;  // of the plan
   double cursor_ = 0;
-  ViewKeeper view_;
   std::optional<MovingPose> target_;  // that the approach follows
   std::optional<Pose> setpoint_;
   std::optional<Stamp> tracked_since_;

@@ -1,42 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the target in the camera's view on a straight way to the start of the skill, which need not
-// look at it. The hand turns as its line of sight to the target does, so that the target stays
-// about where it was in the image. At the start the hand is then turned away from the skill by an
-// offset; along the skill that fades out until the cursor has come to half of the nodes.
+// Keeps the target in the camera's view while the hand is on its way. The skill's goal sees the
+// target with the camera centred on it, so where the goal has the target beside the hand's z axis
+// is where the target belongs. A planned hand is turned, by the shortest rotation, until it has it
+// there but for
+//   view_angle tanh(b / view_angle),
+// b the angle by which it is off: a demonstration that sees the target keeps its orientations, one
+// that looks away is turned. At the goal b = 0.
 #pragma once
-
-#include <optional>
 
 #include "prf_decision/types.hpp"
 
 namespace prf_decision {
 
-class ViewKeeper {
- public:
-  void reset() { *this = ViewKeeper(); }
-
-  // The hand sets out. Without effect when it has already.
-  void set_out(const Pose& hand, const Eigen::Vector3d& target);
-  [[nodiscard]] bool is_under_way() const { return line_.has_value(); }
-  // The orientation that keeps the view from `position`; only under way.
-  [[nodiscard]] Eigen::Quaterniond orientation_at(const Eigen::Vector3d& position,
-                                                  const Eigen::Vector3d& target) const;
-  // The hand has come to the start of the skill, with the orientation `reached`.
-  void arrive(const Eigen::Quaterniond& start, const Eigen::Quaterniond& reached);
-
-  // The orientation on the skill where `planned` is demanded, `fraction` 0 .. 1 of the nodes from
-  // its start.
-  [[nodiscard]] Eigen::Quaterniond on_skill(const Eigen::Quaterniond& planned,
-                                            double fraction) const;
-
- private:
-  struct Line {
-    Eigen::Quaterniond hand;  // orientation where it set out
-    Eigen::Vector3d sight;    // from the hand to the target, m
-  };
-
-  std::optional<Line> line_;
-  std::optional<Eigen::Quaterniond> offset_;  // at the start: reached = start * offset
-};
+// `planned` turned; its angular velocity is that of the turning hand. The line of sight is from
+// `from` (m, where the hand is about to be) to the `target`; both frames move. `goal_in_target`:
+// the hand at the end of the skill in the target's frame. `view_angle` in rad, above 0; pi or more
+// leaves the hand as planned, as does a target nearer than it is beside the z axis.
+[[nodiscard]] MovingPose kept_in_view(const MovingPose& planned, const Eigen::Vector3d& from,
+                                      const MovingPose& target, const Pose& goal_in_target,
+                                      double view_angle);
 
 }  // namespace prf_decision
