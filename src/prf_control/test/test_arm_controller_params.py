@@ -16,7 +16,7 @@ NAN, INF = float('nan'), float('inf')
 BOUNDS = {'velocity_scale': (0.01, 1.0), 'acceleration': (0.1, 20.0), 'max_joint_step': (0.01, 1.0),
           'far_position': (0.001, 1.0), 'far_orientation': (0.001, math.pi), 'damping': (0.001, 1.0),
           'orientation_weight': (0.01, 10.0), 'branch_patience': (0.01, 60.0),
-          'tick_period': (0.002, 0.02), 'max_tracking_error': (0.01, 1.0), 'max_wait': (0.02, 5.0)}
+          'tick_period': (0.001, 0.1), 'max_tracking_error': (0.01, 1.0), 'max_wait': (0.02, 5.0)}
 NAMES = ('joint_prefix', 'planning_frame', 'hand_frame')
 # Parameter, bad value, how the message writes the value, and the bound.
 CATALOGUE = (

@@ -10,12 +10,15 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Where the target belongs in the hand's frame, `line_of_sight` away; none: too near.
+// Where the target belongs in the hand's frame, `line_of_sight` m away; none: too near.
 std::optional<Vector3d> centred(const Pose& goal_in_target, double line_of_sight) {
   Vector3d place = -(goal_in_target.orientation.conjugate() * goal_in_target.position);
-  const double depth = line_of_sight * line_of_sight - place.head<2>().squaredNorm();
+  Eigen::Index axis = 0;
+  const double ahead = place.cwiseAbs().maxCoeff(&axis);
+  const double beside = place.squaredNorm() - ahead * ahead;
+  const double depth = line_of_sight * line_of_sight - beside;
   if (!(depth > 0)) return std::nullopt;
-  place.z() = std::sqrt(depth);
+  place[axis] = std::copysign(std::sqrt(depth), place[axis]);
   return place;
 }
 

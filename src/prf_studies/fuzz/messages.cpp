@@ -40,8 +40,8 @@ FUZZ_TARGET(decision_messages) {
                    "the target of an accepted forecast is finite");
       (void)prf_ros::to_ros_time(later);
     } else if (kind % 3 == 2 && fuzz::read(bytes, joints)) {
-      const auto hand = prf_decision::measured_hand(kRobot, joints);
-      fuzz::expect(!hand || hand->is_finite(), "the measured hand is finite");
+      const auto measured = prf_decision::measured_joints(kRobot, joints);
+      fuzz::expect(!measured || measured->allFinite(), "the measured joints are finite");
     }
   });
 }
