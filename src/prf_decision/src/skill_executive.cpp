@@ -202,11 +202,13 @@ void SkillExecutive::change_state(const Tick& tick, const Assessment& assessment
 }
 
 // The newest forecast if the hand may follow it on the approach, which a wrong one must not lead.
+// Also while no newer one comes: as far as it reaches it is nearer to the target than where the
+// target was.
 const TargetForecast* SkillExecutive::followed_forecast(const Tick& tick) const {
   const GuardInput input = guard_input(tick);
-  const bool usable =
-      input.forecast && !input.forecast_silent && !input.forecast->predictions.empty() &&
-      !check_status(params_.guards, input) && !check_forecast(params_.guards, input);
+  const bool usable = input.forecast && !input.forecast->predictions.empty() &&
+                      !check_status(params_.guards, input) &&
+                      !check_forecast(params_.guards, input);
   return usable ? input.forecast : nullptr;
 }
 

@@ -172,5 +172,23 @@ TEST(SkillExecutive, DoesNotFollowTheForecastOfALostTargetOnTheApproach) {
   EXPECT_LT(held.setpoint->linear_velocity.norm(), 1e-3);
 }
 
+// Fault 10: forecasts fall silent with the hand in the box -> the hand pauses, relative to the
+// target as the last forecast has it
+TEST(SkillExecutive, MovesOnWithTheLastForecastWhileNoneComes) {
+  DecisionParams params = usual_params();
+  params.reference.approach_length = 0.1;
+  World world(params);
+  world.until(ExecutionState::kTracking, 3);
+  world.velocity = {0, 0.1, 0};
+  world.run(0.1);
+  const Eigen::Vector3d before = world.hand.position;
+  world.forecast_silent = true;
+  const ExecutiveResult result = world.run(0.3);
+  EXPECT_EQ(result.progress.state, ExecutionState::kPause);
+  EXPECT_NEAR((world.hand.position - before).y(), 0.03, 0.01);
+  const ExecutiveResult held = world.run(0.6);  // the forecast reaches 0.5 s ahead
+  EXPECT_LT(held.setpoint->linear_velocity.norm(), 1e-3);
+}
+
 }  // namespace
 }  // namespace prf_decision
