@@ -156,7 +156,7 @@ def _touched(data):
     row = max(0, int(np.searchsorted(data.progress.stamps, first.stamp, side="right")) - 1)
     state = judge.STATES[data.progress.states[row]]
     found = shares(data, first.stamp)
-    return [(first.stamp, f"{first.links[0]} touched {first.links[1]} at "
+    return [(first.stamp, f"contact of {first.links[0]} and {first.links[1]} at "
              f"{float(data.seconds(first.stamp)):.1f} s in {state}, with the target believed "
              f"{_number(found.belief)} from where it was and the hand {_number(found.arm)} from its "
              "set-point")]

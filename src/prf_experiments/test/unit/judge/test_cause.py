@@ -89,7 +89,7 @@ class Cause(unittest.TestCase):
     def test_a_contact_is_told_with_the_state_and_what_was_believed(self):
         data = synthetic.make_recording(5.0)
         data.contacts = [recording.Contact(int(data.ticks[150]), ("box", "camera_link"), 2.5)]
-        self.assertIn("Box touched camera_link at 1.5 s in FORWARD, with the target believed", told(data))
+        self.assertIn("Contact of box and camera_link at 1.5 s in FORWARD, with the target believed", told(data))
 
     def test_long_waits_are_told_with_their_most_frequent_reason(self):
         data = synthetic.make_recording(10.0)
