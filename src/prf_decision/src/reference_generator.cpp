@@ -90,9 +90,9 @@ bool ReferenceGenerator::is_relative_to_target() const {
 
 // The view is kept also of a target that is known only as it was last seen.
 MovingPose ReferenceGenerator::hand_on_plan(Direction direction) const {
-  const MovingPose hand = is_relative_to_target() ? approach_.hand(cursor_, direction, *target_,
-                                                                   params_.approach_length)
-                                                  : hand_at(*plan_, cursor_, direction);
+  MovingPose hand = is_relative_to_target()
+                        ? approach_.hand(cursor_, direction, *target_, params_.approach_length)
+                        : hand_at(*plan_, cursor_, direction);
   if (params_.adaptation == Adaptation::kOnce || !target_) return hand;
   return kept_in_view(hand, setpoint_ ? setpoint_->position : hand.pose.position, *target_,
                       plan_->goal_in_target, params_.view_angle);
