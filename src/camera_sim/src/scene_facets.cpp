@@ -15,6 +15,7 @@ const Vector3d kTowardLight = Vector3d(-0.45, 0.30, 0.84).normalized();
 constexpr double kAmbient = 0.6;
 constexpr double kBoxAlbedo = 165.0;
 constexpr double kPostAlbedo = 120.0;
+constexpr double kObstacleAlbedo = 70.0;
 constexpr double kDeckAlbedo = 105.0;
 constexpr double kChassisAlbedo = 90.0;
 
@@ -119,6 +120,15 @@ std::vector<Body> target_bodies(const TargetBox& target) {
     const double distance = half.dot(outward[i].cwiseAbs());
     bodies.push_back(make_body(walls[i], kBoxAlbedo, plane_of_box(outward[i], distance)));
     bodies.back().carries_tag = i == 0;
+  }
+  if (target.obstructed) {
+    // In front of all others: its own plane away from the box has it behind and nothing before.
+    const Cuboid post = target.obstacle();
+    const Vector3d toward_box = post.pose_in_platform.linear().col(0);
+    bodies.push_back(make_body(
+        post, kObstacleAlbedo,
+        {toward_box, Vector3d(post.pose_in_platform * Vector3d(0.5 * post.size.x(), 0.0, 0.0))}));
+    std::rotate(bodies.begin(), bodies.end() - 1, bodies.end());
   }
   return bodies;
 }

@@ -98,6 +98,21 @@ Cuboid TargetBox::post() const {
   return post;
 }
 
+// Beside the straight way to the tag, in the way of one that comes from the right.
+Cuboid TargetBox::obstacle() const {
+  constexpr double kRight = 0.17;   // m, of the tag's centre
+  constexpr double kBefore = 0.26;  // m, the tag's face
+  constexpr double kWidth = 0.04;   // m
+  constexpr double kAbove = 0.25;   // m, of its top over the tag's centre
+  const double height = tag_position_in_platform.z() + kAbove;
+  const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());
+  Cuboid post = cuboid_at(tag_position_in_platform + turn * Eigen::Vector3d(-kBefore, -kRight, 0.0),
+                          {kWidth, kWidth, height});
+  post.pose_in_platform.translation().z() = 0.5 * height;
+  post.pose_in_platform.linear() = turn.toRotationMatrix();
+  return post;
+}
+
 std::vector<Cuboid> TargetBox::support() const {
   return on_cart ? std::vector<Cuboid>{post(), cart_chassis()} : std::vector<Cuboid>{post()};
 }

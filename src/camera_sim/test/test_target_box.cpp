@@ -83,6 +83,19 @@ TEST(TargetBox, StandsOnTheChassisOfACart) {
 }
 
 // Fault 43, 52: sizes and places NaN, 1e308 or 5e-324 -> refused
+TEST(TargetBox, ThePostInTheWayStandsOnTheDeckAtTheRightBeforeTheBox) {
+  TargetBox box;
+  box.obstructed = true;
+  box.yaw = 0.3;
+  const Cuboid post = box.obstacle();
+  const Eigen::Vector3d in_tag =
+      box.tag_in_platform().inverse() * post.pose_in_platform.translation();
+  EXPECT_NEAR(in_tag.x(), 0.17, 1e-12);
+  EXPECT_NEAR(in_tag.z(), 0.26, 1e-12);
+  EXPECT_NEAR(post.pose_in_platform.translation().z(), 0.5 * post.size.z(), 1e-12);
+  EXPECT_GT(in_tag.z() - 0.5 * post.size.x(), box.inner_depth);
+}
+
 TEST(TargetBox, RefusesImpossibleSizes) {
   const std::vector<std::function<void(TargetBox&)>> faults{
       [](TargetBox& box) { box.tag_size = 0.0; },

@@ -5,6 +5,7 @@
 #include <prf_msgs/ExecutionProgress.h>
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <prf_core/quoted.hpp>
 #include <prf_core/require.hpp>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "elte_planner/current_skill.hpp"
 
@@ -45,6 +47,44 @@ inline Progress progress_from(const prf_msgs::ExecutionProgress& message) {
           {message.demonstration, message.demonstration_switch}};
 }
 
+// A SPHERE with one diameter as its scale, or a CUBE. Throws std::invalid_argument for others.
+inline PlacedObstacle obstacle_from(const visualization_msgs::Marker& marker) {
+  using visualization_msgs::Marker;
+  const prf_core::Pose pose = prf_ros::to_core(marker.pose);
+  prf_core::require_pose("obstacle", pose);
+  const Eigen::Vector3d size = prf_ros::to_core(marker.scale);
+  for (const double length : size)
+    prf_core::require_between("obstacle's scale", length, 0.0, 20.0, "m");
+  const bool is_ball =
+      marker.type == Marker::SPHERE && size.x() == size.y() && size.x() == size.z();
+  prf_core::require(is_ball || marker.type == Marker::CUBE, "obstacle's type",
+                    static_cast<int>(marker.type), "SPHERE with three equal scales, or CUBE");
+  if (is_ball) return {Obstacle::disc(pose.position, 0.5 * size.x())};
+  return {Obstacle::box(pose.position, 0.5 * size, pose.orientation.toRotationMatrix())};
+}
+
+// The stamp of the message's first marker (0 without any) and all its obstacles. Markers whose
+// action is not ADD are none. Throws std::invalid_argument for a message that cannot be used.
+inline std::pair<prf_core::Stamp, std::vector<PlacedObstacle>> obstacles_from(
+    const visualization_msgs::MarkerArray& message, const std::string& planning_frame,
+    const std::string& target_frame) {
+  std::pair<prf_core::Stamp, std::vector<PlacedObstacle>> result;
+  if (message.markers.empty()) return result;
+  result.first = prf_ros::checked_stamp("stamp", message.markers.front().header.stamp);
+  for (const visualization_msgs::Marker& marker : message.markers) {
+    if (marker.action != visualization_msgs::Marker::ADD) continue;
+    const std::string& frame = marker.header.frame_id;
+    prf_core::require(frame == planning_frame || frame == target_frame, "frame_id",
+                      prf_core::quoted(frame),
+                      prf_core::quoted(planning_frame) + " or " + prf_core::quoted(target_frame));
+    result.second.push_back(obstacle_from(marker));
+    result.second.back().on_target = frame == target_frame;
+  }
+  prf_core::require(result.second.size() <= kMostObstacles, "obstacles", result.second.size(),
+                    "at most " + std::to_string(kMostObstacles));
+  return result;
+}
+
 inline std::uint8_t to_message(SkillStatus status) {
   switch (status) {
     case SkillStatus::kSolved:
@@ -53,6 +93,7 @@ inline std::uint8_t to_message(SkillStatus status) {
       return prf_msgs::SkillTrajectory::RELAXED;
     case SkillStatus::kKept:
       return prf_msgs::SkillTrajectory::KEPT;
+    case SkillStatus::kBlocked:  // its poses are not sent, so the execution pauses
     case SkillStatus::kNoPlan:
       break;
   }
@@ -89,6 +130,7 @@ inline prf_msgs::SkillTrajectory trajectory_for(const Progress& progress, const 
   message.kkt_residual = result.kkt_residual;
   message.radius = result.radius;
   message.slack = result.slack;
+  if (message.status == prf_msgs::SkillTrajectory::NO_PLAN) return message;
   for (const TimedPose& node : result.poses) {
     message.poses.push_back(prf_ros::to_message(node.pose));
     message.time_from_start.emplace_back(node.time);

@@ -12,6 +12,8 @@ struct SkillPlannerParams {
   SkillFiles files;
   double late_after = 0.0;   // s, a solve that takes longer is late; within [1e-6, 10]
   double tick_period = 0.0;  // s, between two execution/progress; within [0.001, 0.1]
+  std::string target_frame;  // in which obstacles that move with the target are given
+  bool avoid = true;         // whether the topic of obstacles is heeded
   SessionParams session;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound

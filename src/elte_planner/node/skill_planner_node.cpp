@@ -39,6 +39,13 @@ SkillPlannerNode::SkillPlannerNode(const SkillPlannerParams& params)
        1.0 / params.tick_period},
       1000,
       [this](const prf_msgs::ExecutionProgress::ConstPtr& message) { on_progress(*message); });
+  inputs_.subscribe<visualization_msgs::MarkerArray>(
+      {topics::kObstacles,
+       "visualization_msgs/MarkerArray in " + params.files.frame + " or " + params.target_frame +
+           ", where somebody knows of obstacles",
+       0.0, prf_ros::Presence::kOnDemand},
+      10,
+      [this](const visualization_msgs::MarkerArray::ConstPtr& message) { on_obstacles(*message); });
   // Advertised last: whoever sees this publisher may send, both topics are subscribed.
   trajectory_ = node_.advertise<prf_msgs::SkillTrajectory>(topics::kSkillTrajectory, 100);
   updater_.setHardwareID("none");
@@ -69,6 +76,16 @@ void SkillPlannerNode::on_progress(const prf_msgs::ExecutionProgress& message) {
   plan_decided_requests();
 }
 
+void SkillPlannerNode::on_obstacles(const visualization_msgs::MarkerArray& message) {
+  if (!params_.avoid) return;
+  try {
+    auto [stamp, obstacles] = obstacles_from(message, params_.files.frame, params_.target_frame);
+    obstacles_.add(stamp, std::move(obstacles));
+  } catch (const std::invalid_argument& refusal) {
+    inputs_.drop(topics::kObstacles, refusal.what());
+  }
+}
+
 void SkillPlannerNode::take(const prf_msgs::TargetForecast& message) {
   require_frame(message.header.frame_id, params_.files.frame);
   const auto [forecast, refusal] = forecast_from(message);
@@ -91,6 +108,7 @@ void SkillPlannerNode::plan_decided_requests() {
     if (request->new_run) {
       ROS_INFO("stamps went back: new run");
       skill_.reset();
+      obstacles_.begin_run(request->progress.stamp);
     }
     trajectory_.publish(plan(*request));
     ++requests_;
@@ -112,14 +130,18 @@ prf_msgs::SkillTrajectory SkillPlannerNode::plan(const JoinedRequest& request) {
     warn_of_lost_shape();
   }
   const auto start = std::chrono::steady_clock::now();
-  const SkillResult result =
-      skill_.session().plan(progress, request.forecast ? &*request.forecast : nullptr);
+  const SkillResult result = skill_.session().plan(
+      progress, request.forecast ? &*request.forecast : nullptr, obstacles_.at(progress.stamp));
   note_solve_time(std::chrono::steady_clock::now() - start);
   status_ = result.status;
   message_ = result.message;
   if (status_ == SkillStatus::kKept) {
     ++kept_;
     if (told_.is_due("plan kept")) ROS_WARN("plan kept: %s", message_.c_str());
+  }
+  if (status_ == SkillStatus::kBlocked) {
+    ++blocked_;
+    if (told_.is_due("blocked")) ROS_WARN("the way is blocked: %s", message_.c_str());
   }
   return trajectory_for(progress, skill_, result);
 }
@@ -149,6 +171,8 @@ void SkillPlannerNode::diagnose(Status& status) {
   refusals_reported_ = refused_;
   status.add("plans sent", requests_);
   status.add("kept plans", kept_);
+  status.add("blocked plans", blocked_);
+  status.add("obstacles of the topic", obstacles_.count());
   status.add("late solves", late_);
   status.add("forecasts refused", refused_);
   status.add("requests waiting for their forecast", queue_.waiting());

@@ -7,6 +7,7 @@
 #include <prf_msgs/SkillTrajectory.h>
 #include <prf_msgs/TargetForecast.h>
 #include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <boost/circular_buffer.hpp>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include <string>
 
 #include "elte_planner/current_skill.hpp"
+#include "elte_planner/obstacle_history.hpp"
 #include "elte_planner/request_queue.hpp"
 #include "params.hpp"
 
@@ -30,6 +32,7 @@ class SkillPlannerNode {
   void warn_of_lost_shape() const;
   void on_forecast(const prf_msgs::TargetForecast& message);
   void on_progress(const prf_msgs::ExecutionProgress& message);
+  void on_obstacles(const visualization_msgs::MarkerArray& message);
   // Throw std::invalid_argument for a message that is to be dropped.
   void take(const prf_msgs::TargetForecast& message);
   void take(const prf_msgs::ExecutionProgress& message);
@@ -42,9 +45,10 @@ class SkillPlannerNode {
   SkillPlannerParams params_;
   CurrentSkill skill_;
   RequestQueue queue_;
+  ObstacleHistory obstacles_;  // of the topic
 
   prf_ros::WallThrottles told_;
-  std::size_t requests_ = 0, kept_ = 0, late_ = 0, refused_ = 0;
+  std::size_t requests_ = 0, kept_ = 0, blocked_ = 0, late_ = 0, refused_ = 0;
   std::size_t refusals_reported_ = 0;  // of forecasts, by the last diagnostics
   SkillStatus status_ = SkillStatus::kNoPlan;
   std::string message_;  // of the last plan

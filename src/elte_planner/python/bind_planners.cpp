@@ -26,6 +26,7 @@ const char* name_of(PlanStatus status) {
     case PlanStatus::kRelaxed:
       return "relaxed";
     case PlanStatus::kFailed:
+    case PlanStatus::kNoWay:
       break;
   }
   return "failed";

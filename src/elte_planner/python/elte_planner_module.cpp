@@ -154,8 +154,8 @@ void bind_obstacles(py::module_& m) {
       .def_readonly("half_widths", &Obstacle::half_widths, "(d,) of a box; empty for a disc.");
   m.def("disc_obstacle", &Obstacle::disc, py::arg("centre"), py::arg("radius"),
         "Disc, in 3-D a sphere. centre: (d,).");
-  m.def("box_obstacle", &Obstacle::box, py::arg("centre"), py::arg("half_widths"),
-        "Axis-aligned box. centre, half_widths: (d,).");
+  m.def("box_obstacle", py::overload_cast<Eigen::VectorXd, Eigen::VectorXd>(&Obstacle::box),
+        py::arg("centre"), py::arg("half_widths"), "Axis-aligned box. centre, half_widths: (d,).");
   m.def("polyline_clearance", &polyline_clearance, py::arg("y"), py::arg("obstacles"),
         "Least distance of the polyline through y (T, d) from the obstacles.");
 

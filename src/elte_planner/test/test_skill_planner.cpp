@@ -224,6 +224,21 @@ TEST(DynamicMovementPrimitive, FollowsItsDemonstrationAndApproachesAChangedGoal)
   EXPECT_LE((moved.positions.row(99).transpose() - request.goal).norm(), 0.5 * before);
 }
 
+TEST(DynamicMovementPrimitive, IsPushedOffAnObstacleBesideItsWay) {
+  const auto planner = make_skill_planner("dmp", corner(), {});
+  PlanRequest request{corner(), 2, corner().row(99).transpose(), 0.05};
+  const PlanResult free = planner->plan(request);
+  request.clearance = 0.03;
+  request.obstacles = {Obstacle::disc(Eigen::Vector2d(0.3, 0.06), 0.05)};
+  ASSERT_LT(plan_clearance(free.positions, 2, request.obstacles, {}), request.clearance);
+  const PlanResult around = planner->plan(request);
+  ASSERT_EQ(around.status, PlanStatus::kSolved) << around.message;
+  EXPECT_GE(plan_clearance(around.positions, 2, request.obstacles, {}), request.clearance);
+  EXPECT_LE((around.positions.row(99) - free.positions.row(99)).norm(), 0.02);
+  request.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 0.5), 0.05)};  // over the goal
+  EXPECT_EQ(planner->plan(request).status, PlanStatus::kNoWay);
+}
+
 TEST(SkillPlannerFactory, ListsTheKnownNamesWhenRefusing) {
   std::mt19937 random(2);
   const Eigen::MatrixXd demonstration = random_demonstration(10, 3, random);

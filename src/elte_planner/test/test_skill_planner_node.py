@@ -12,6 +12,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
+from visualization_msgs.msg import Marker, MarkerArray
 
 from prf_msgs.msg import ExecutionProgress, SkillTrajectory, TargetForecast, TargetPrediction
 
@@ -42,6 +43,16 @@ def progress(stamp, forecast_stamp, frozen=2, demonstration="", demonstration_sw
     return message
 
 
+def obstacle(stamp, frame, action=Marker.ADD):
+    """A ball over everything that the skill may reach."""
+    marker = Marker(type=Marker.SPHERE, action=action)
+    marker.header.stamp = rospy.Time.from_sec(stamp)
+    marker.header.frame_id = frame
+    marker.pose.orientation.w = 1.0
+    marker.scale.x = marker.scale.y = marker.scale.z = 4.0
+    return MarkerArray([marker])
+
+
 class SkillPlannerNode(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -50,6 +61,7 @@ class SkillPlannerNode(unittest.TestCase):
         rospy.Subscriber("skill/trajectory", SkillTrajectory, cls.plans.append, queue_size=100)
         cls.forecasts = rospy.Publisher("target/forecast", TargetForecast, queue_size=100)
         cls.progress = rospy.Publisher("execution/progress", ExecutionProgress, queue_size=100)
+        cls.obstacles = rospy.Publisher("obstacles", MarkerArray, queue_size=100)
         while (cls.forecasts.get_num_connections() == 0 or cls.progress.get_num_connections() == 0):
             rospy.rostime.wallsleep(0.02)
         rospy.rostime.wallsleep(0.5)
@@ -58,7 +70,9 @@ class SkillPlannerNode(unittest.TestCase):
         """Publish in this order with time between, return the plans that came."""
         del self.plans[:]
         for message in messages:
-            if isinstance(message, TargetForecast):
+            if isinstance(message, MarkerArray):
+                self.obstacles.publish(message)
+            elif isinstance(message, TargetForecast):
                 self.forecasts.publish(message)
             else:
                 # The clock of the tests leaps: so many messages that name no new forecast prove it.
@@ -179,6 +193,20 @@ class SkillPlannerNode(unittest.TestCase):
         self.assertEqual((kept.status, kept.poses), (moved.status, moved.poses))
         self.assertEqual(back.poses, before.poses)
 
+    # Fault 22: an obstacle over the goal, no way past it -> no plan is sent, the execution pauses
+    # Fault 28: obstacles in a foreign frame -> dropped, the ones before stay
+    def test_7_sends_no_plan_while_obstacles_block_the_way(self):
+        for stamp, message, status in (
+                (90.0, obstacle(80.0, FRAME), SkillTrajectory.NO_PLAN),
+                (91.0, obstacle(90.5, "map"), SkillTrajectory.NO_PLAN),
+                (92.0, obstacle(91.5, FRAME, Marker.DELETEALL), SkillTrajectory.SOLVED),
+                (93.0, obstacle(93.5, FRAME), SkillTrajectory.SOLVED),  # not yet
+                (94.0, obstacle(93.6, "tag_0"), SkillTrajectory.NO_PLAN),
+                (95.0, obstacle(94.5, "tag_0", Marker.DELETEALL), SkillTrajectory.SOLVED)):
+            (plan,) = self.plans_after(message, forecast(stamp), progress(stamp + 0.06, stamp))
+            self.assertEqual(plan.status, status, (stamp, plan.message))
+            self.assertEqual(bool(plan.poses), status == SkillTrajectory.SOLVED)
+
     # Fault 50: a solve is late -> its plan is sent all the same, counted and told in diagnostics
     def test_8_tells_late_solves_and_sends_their_plans(self):
         plans: list[SkillTrajectory] = []
@@ -248,6 +276,7 @@ class SkillPlannerParameters(unittest.TestCase):
         self.check("radius_max = 5", radius_max=5.0)
         self.check("late_after = 0", late_after=0.0)
         self.check("obstacles = ", obstacles="sphere 1 2")
+        self.check("via_points = ", via_points="0.5 1 2")
         self.check("frame is 'world'", frame="world")
         self.check("/nonexistent.csv: there is no such file", demonstration="/nonexistent.csv")
 

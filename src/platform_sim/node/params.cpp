@@ -81,6 +81,8 @@ SimParams load_params(prf_ros::PrivateParameters values, const ros::NodeHandle& 
   result.world.body_motion = values.text("body_motion");
   result.world.scenario =
       one_of("scenario", values.text("scenario"), WorldParams::scenario_names());
+  result.world.obstacle =
+      one_of("obstacle", values.text("obstacle"), WorldParams::obstacle_names());
   result.world.gait = one_of("gait", values.text("gait"), World::gait_names());
   const int seed = values.integer("seed");
   prf_core::require(seed >= 0, "seed", seed, ">= 0");

@@ -6,6 +6,7 @@
 #include <prf_msgs/topics.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "conversions.hpp"
 
@@ -19,6 +20,7 @@ constexpr std::uint32_t kQueueSize = 1000;
 // 10 s, 92 MB: lockstep does not wait for a recorder that a busy machine holds up.
 constexpr std::uint32_t kImageQueueSize = 300;
 const std::string kOpticalFrame = "camera_optical_frame";
+const std::string kTagFrame = "tag_0";
 const std::string kEndEffector = "j2s7s300_end_effector";
 
 std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
@@ -37,6 +39,7 @@ SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states, bool
       joint_states_(with_joint_states
                         ? node.advertise<sensor_msgs::JointState>(topics::kJointStates, kQueueSize)
                         : ros::Publisher()),
+      obstacles_(node.advertise<visualization_msgs::MarkerArray>(topics::kObstacles, 1, true)),
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics, 10)),
       platform_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthPlatform, kQueueSize)),
       base_(node.advertise<nav_msgs::Odometry>(truth::kGroundTruthBase, kQueueSize)),
@@ -46,6 +49,23 @@ SimPublishers::SimPublishers(ros::NodeHandle& node, bool with_joint_states, bool
           node.advertise<geometry_msgs::PoseStamped>(truth::kGroundTruthEndEffector, kQueueSize)),
       contacts_(node.advertise<prf_msgs::ContactArray>(truth::kGroundTruthContacts, kQueueSize)) {
   if (is_disturbed) events_ = node.advertise<std_msgs::String>(topics::kFaultEvents, kQueueSize);
+}
+
+void SimPublishers::publish_obstacles(const camera_sim::TargetBox& target) {
+  if (!target.obstructed) return;
+  const camera_sim::Cuboid post = target.obstacle();
+  visualization_msgs::MarkerArray message;
+  visualization_msgs::Marker& marker = message.markers.emplace_back();
+  marker.header.frame_id = kTagFrame;
+  marker.ns = "obstacles";
+  marker.type = visualization_msgs::Marker::CUBE;
+  marker.pose = prf_ros::to_message(
+      prf_core::pose_from(target.tag_in_platform().inverse() * post.pose_in_platform));
+  marker.scale = prf_ros::to_vector3(post.size);
+  marker.color.r = 0.8F;
+  marker.color.a = 1.0F;
+  marker.frame_locked = 1;
+  obstacles_.publish(message);
 }
 
 void SimPublishers::publish_clock(std::int64_t now_ms) {
@@ -116,8 +136,8 @@ void SimPublishers::publish_diagnostics(std::int64_t now_ms, double real_time_fa
 unsigned SimPublishers::subscribers() const {
   unsigned count = 0;
   for (const ros::Publisher* publisher :
-       {&clock_, &image_, &camera_info_, &joint_states_, &platform_, &base_, &tag_, &camera_,
-        &end_effector_, &contacts_}) {
+       {&clock_, &image_, &camera_info_, &joint_states_, &obstacles_, &platform_, &base_, &tag_,
+        &camera_, &end_effector_, &contacts_}) {
     if (*publisher) count += publisher->getNumSubscribers();
   }
   return count;

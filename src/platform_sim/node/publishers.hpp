@@ -22,6 +22,8 @@ class SimPublishers {
   // nor the topic advertised, unless `is_disturbed`.
   SimPublishers(ros::NodeHandle& node, bool with_joint_states, bool is_disturbed);
 
+  // Once: what stands in the hand's way, in the tag's frame. Nothing when nothing does.
+  void publish_obstacles(const camera_sim::TargetBox& target);
   void publish_clock(std::int64_t now_ms);
   void publish_image(std::int64_t stamp_ms, const cv::Mat& image,
                      const camera_sim::PinholeCamera& camera);
@@ -39,7 +41,7 @@ class SimPublishers {
   [[nodiscard]] std::vector<std::string> without_subscriber(bool camera_too) const;
 
  private:
-  ros::Publisher clock_, image_, camera_info_, joint_states_, diagnostics_;
+  ros::Publisher clock_, image_, camera_info_, joint_states_, obstacles_, diagnostics_;
   ros::Publisher platform_, base_, tag_, camera_, end_effector_, contacts_;
   ros::Publisher events_;       // none unless is_disturbed
   std::set<std::string> told_;  // disturbances that were described

@@ -69,6 +69,7 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
       started_(!params.paused) {
   if (params.driver) driver_.emplace(node, *params.driver, [this] { heard_driver(); });
+  publishers_.publish_obstacles(world_.target());
   ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
 }
 

@@ -117,6 +117,7 @@ class World::Impl {
   CuboidBody deck_;
   CuboidBody box_;
   CuboidBody support_;
+  std::optional<CuboidBody> obstacle_;
   RobotModel robot_;
   std::vector<std::string> joint_names_;
   std::vector<const v60_gait::RobotJoint*> leg_joints_;
@@ -159,6 +160,10 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
   for (const std::string& name : arm_joints) {
     arm_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
+  }
+  if (target_.obstructed) {
+    obstacle_.emplace(scene_, "obstacle", to_parts({target_.obstacle()}),
+                      CollisionFilter{kTarget, ~kSurroundings}, motion_.deck(0.0).pose);
   }
   if (target_.on_cart && !disturbances_.moves_cart()) {
     push_.emplace(CartPush::draw(config.seed));
@@ -246,6 +251,7 @@ void World::Impl::step() {
   if (base_carrier_) base_carrier_->move_to(carried_base());
   deck_.move_to(platform().pose);
   for (CuboidBody* body : {&box_, &support_}) body->move_to(carrier().pose);
+  if (obstacle_) obstacle_->move_to(carrier().pose);
   scene_.step();
   const std::vector<ContactPoint> points = scene_.contact_points();
   contacts.add_step(points);

@@ -16,6 +16,7 @@ namespace {
 
 const std::string kCart = "cart";
 const std::string kQuay = "quay";
+const std::string kPost = "post";
 
 void require_body_motion(const std::string& path) {
   try {
@@ -44,9 +45,15 @@ const std::vector<std::string>& WorldParams::scenario_names() {
 
 bool WorldParams::target_stands_ashore() const { return scenario == kQuay; }
 
+const std::vector<std::string>& WorldParams::obstacle_names() {
+  static const std::vector<std::string> names{"none", kPost};
+  return names;
+}
+
 camera_sim::TargetBox WorldParams::placed_target() const {
   camera_sim::TargetBox placed = target;
   placed.on_cart = scenario == kCart;
+  placed.obstructed = obstacle == kPost;
   return placed;
 }
 
@@ -59,6 +66,13 @@ void WorldParams::validate() const {
     throw std::invalid_argument(
         "motion is '" + motion +
         "', must be none in the scenario cart, where nothing moves the floor");
+  }
+  const std::vector<std::string>& obstacles = obstacle_names();
+  if (std::find(obstacles.begin(), obstacles.end(), obstacle) == obstacles.end()) {
+    throw std::invalid_argument("obstacle is '" + obstacle + "', must be none or post");
+  }
+  if (obstacle == kPost && scenario != "treadmill") {
+    throw std::invalid_argument("obstacle is 'post', must be none but in the scenario treadmill");
   }
   const PlatformMotion deck_motion(motion, seed);
   if (Disturbances(disturb, seed).moves_cart() && scenario != kCart) {

@@ -84,6 +84,16 @@ TEST(World, RefusesUnknownScenariosAndACartOnAMovingFloor) {
   EXPECT_THROW(config.validate(), std::invalid_argument);
 }
 
+TEST(World, RefusesAnUnknownObstacleAndAPostBeforeACart) {
+  WorldParams config = folded_arm();
+  config.obstacle = "wall";
+  EXPECT_THROW(config.validate(), std::invalid_argument);
+  config.obstacle = "post";
+  EXPECT_NO_THROW(config.validate());
+  config.scenario = "cart";
+  EXPECT_THROW(config.validate(), std::invalid_argument);
+}
+
 TEST(World, StandsThroughThreePeriodsOfHeavyMotionWithoutSlipping) {
   WorldParams config = folded_arm();
   config.motion = "heavy";

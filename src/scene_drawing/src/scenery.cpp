@@ -19,6 +19,7 @@ const camera_sim::Colour kRail(0.90, 0.62, 0.15);
 const camera_sim::Colour kStrut(0.42, 0.46, 0.55);
 const camera_sim::Colour kBox(0.87, 0.72, 0.48);
 const camera_sim::Colour kPost(0.62, 0.62, 0.64);
+const camera_sim::Colour kObstacle(0.80, 0.22, 0.16);
 const camera_sim::Colour kChassis(0.25, 0.42, 0.62);
 const camera_sim::Colour kWheel(0.15, 0.15, 0.16);
 
@@ -124,6 +125,11 @@ void draw_scenery(const SceneState& state, const camera_sim::TargetBox& target,
   }
   const camera_sim::Cuboid post = target.post();
   canvas.draw_solid(camera_sim::box_mesh(post.size), state.carrier * post.pose_in_platform, kPost);
+  if (target.obstructed) {
+    const camera_sim::Cuboid obstacle = target.obstacle();
+    canvas.draw_solid(camera_sim::box_mesh(obstacle.size),
+                      state.carrier * obstacle.pose_in_platform, kObstacle);
+  }
   draw_tag(state.carrier * target.tag_in_platform(), target.tag_size, canvas);
 }
 

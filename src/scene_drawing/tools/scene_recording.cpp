@@ -3,7 +3,9 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <prf_msgs/topics.h>
 #include <sensor_msgs/JointState.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +55,9 @@ class Reader {
       Tick& tick = ticks_[to_ns(tag->header.stamp)];
       tick.tag = prf_ros::to_core(tag->pose).isometry();
       tick.parts |= kTag;
+    } else if (const auto obstacles =
+                   prf_ros::message_in<visualization_msgs::MarkerArray>(instance)) {
+      obstructed_ = obstructed_ || !obstacles->markers.empty();
     }
   }
 
@@ -60,6 +65,7 @@ class Reader {
   [[nodiscard]] SceneRecording finish(const std::string& bag_path) {
     SceneRecording recording;
     recording.target.on_cart = on_cart_;
+    recording.target.obstructed = obstructed_;
     for (auto& [stamp, tick] : ticks_) {
       if (tick.parts != kAll) continue;
       if (recording.states.empty()) {
@@ -78,6 +84,7 @@ class Reader {
  private:
   std::map<std::int64_t, Tick> ticks_;
   bool on_cart_ = false;
+  bool obstructed_ = false;
 };
 
 }  // namespace
@@ -97,7 +104,8 @@ SceneRecording read_scene(const std::string& bag_path) {
   rosbag::Bag bag;
   prf_ros::open_bag(bag, bag_path);
   rosbag::View view(bag, rosbag::TopicQuery({"/joint_states", "/ground_truth/platform",
-                                             "/ground_truth/base", "/ground_truth/tag"}));
+                                             "/ground_truth/base", "/ground_truth/tag",
+                                             std::string("/") + prf_msgs::topics::kObstacles}));
   Reader reader;
   try {
     for (const rosbag::MessageInstance& instance : view) reader.read(instance);

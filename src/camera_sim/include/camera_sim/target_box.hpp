@@ -33,6 +33,7 @@ struct TargetBox {
   double wall_thickness = 0.005;
   double post_width = 0.06;  ///< square column from the deck or the cart to the box
   bool on_cart = false;      ///< box and post are on a cart; the floor is the plane z = 0
+  bool obstructed = false;   ///< another post stands on the deck before the box, see obstacle()
 
   /// Throws std::invalid_argument with name, value and bound.
   void validate() const;
@@ -46,6 +47,9 @@ struct TargetBox {
   /// Back, left, right, top, bottom.
   [[nodiscard]] std::vector<Cuboid> walls() const;
   [[nodiscard]] Cuboid post() const;
+  /// The post before the box if obstructed, which moves with what carries the box: on its right, as
+  /// seen by a viewer in front of the tag, where it hides the tag from no viewer on its left.
+  [[nodiscard]] Cuboid obstacle() const;
   /// What carries the box: the post and, if on_cart, the cart's chassis.
   [[nodiscard]] std::vector<Cuboid> support() const;
 };

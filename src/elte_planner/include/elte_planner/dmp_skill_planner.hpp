@@ -11,6 +11,15 @@
 // on from the last frozen node with its velocity and the changed goal; the goal is approached, not
 // met. x is the position in a frame that moves with the centres of the approach's balls; without an
 // approach it rests.
+//
+// Obstacles push the hand off by the gradient of a dynamic potential (Park, Hoffmann, Pastor,
+// Schaal 2008), which is added to v':
+//
+//   U = lambda (-cos theta)^2 |v| / p(x) where the hand comes nearer (cos theta < 0), else 0,
+//
+// p the distance from the obstacle beyond the clearance, theta the angle from the normal on it to
+// the velocity. A hand that comes straight at an obstacle stops before it. A plan that ends nearer
+// than the clearance all the same is kNoWay.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,6 +35,7 @@ struct DmpParams {
   double damping = 40.0;           // D
   double phase_decay = 4.6051702;  // alpha: the phase ends at 0.01
   double activation = 0.1;         // of a basis function at its neighbour's centre
+  double repulsion = 0.1;          // lambda, m^2 per unit of time
 
   void validate() const;  // throws std::invalid_argument
 };
@@ -42,6 +52,9 @@ class DmpSkillPlanner : public SkillPlanner {
  private:
   void fit();
   Eigen::VectorXd activations(double phase) const;
+  // Acceleration off the obstacles at x with velocity v on the way to node k.
+  Eigen::RowVectorXd push(const PlanRequest& request, Eigen::Index k, const Eigen::RowVectorXd& x,
+                          const Eigen::RowVectorXd& v) const;
 
   Eigen::MatrixXd demonstration_;
   DmpParams params_;

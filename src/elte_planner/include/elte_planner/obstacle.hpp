@@ -13,6 +13,8 @@ struct Obstacle {
 
   static Obstacle disc(Eigen::VectorXd centre, double radius);  // in 3-D a sphere
   static Obstacle box(Eigen::VectorXd centre, Eigen::VectorXd half_widths);
+  // A box along the columns of `axes`, orthonormal.
+  static Obstacle box(Eigen::VectorXd centre, Eigen::VectorXd half_widths, Eigen::MatrixXd axes);
 
   void validate(Eigen::Index dimensions) const;  // throws std::invalid_argument
 
@@ -23,7 +25,12 @@ struct Obstacle {
   Eigen::VectorXd centre;
   double radius = 0.0;
   Eigen::VectorXd half_widths;
+  Eigen::MatrixXd axes;  // of a box, columns; empty: those of the coordinates
 };
+
+// An obstacle's places, one for each node of a plan: [k] while the segment that ends in node k is
+// executed.
+using MovingObstacle = std::vector<Obstacle>;
 
 struct Separation {
   double distance = 0.0;   // Euclidean, 0 when they meet
@@ -37,5 +44,11 @@ struct Separation {
 // none.
 [[nodiscard]] double polyline_clearance(const Eigen::MatrixXd& y,
                                         const std::vector<Obstacle>& obstacles);
+
+// Least distance of the segments that end in nodes `first` (>= 1) and later from obstacles at rest
+// and in motion; infinity for none.
+[[nodiscard]] double plan_clearance(const Eigen::MatrixXd& y, Eigen::Index first,
+                                    const std::vector<Obstacle>& obstacles,
+                                    const std::vector<MovingObstacle>& moving);
 
 }  // namespace elte_planner

@@ -30,6 +30,7 @@ struct AvoidanceProblem {
   // beside it is taken when there is one, whatever the energy of others: a plan does not change
   // sides without need.
   Eigen::MatrixXd start = {};
+  std::vector<MovingObstacle> moving = {};  // beside `obstacles`; each has a place for every node
 
   void validate() const;  // throws std::invalid_argument
 };

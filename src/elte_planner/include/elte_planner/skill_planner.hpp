@@ -20,6 +20,7 @@ enum class PlanStatus {
   kSolved,
   kRelaxed,  // infeasible as asked; the radius was enlarged by `slack`
   kFailed,   // no plan, the message says why
+  kNoWay,    // no plan, because none was found that keeps clear of the obstacles
 };
 
 struct NodeBall {
@@ -36,10 +37,12 @@ struct PlanRequest {
   // Of free nodes before the last. elte and lte keep them; elastic_map and dmp plan in a frame that
   // moves with their centres.
   std::vector<NodeBall> approach = {};
-  // Every segment that is not frozen keeps `clearance` from these; only elte and lte can, others
-  // refuse them. No way found: failed.
+  // Every segment that is not frozen keeps `clearance` from these, else kNoWay. elte and lte look
+  // for a way and leave out balls of the approach that are nearer themselves; dmp is pushed off and
+  // may find none; elastic_map refuses obstacles.
   std::vector<Obstacle> obstacles = {};
-  double clearance = 0.0;  // m, > 0 with obstacles
+  std::vector<MovingObstacle> moving = {};  // likewise; each has a place for every node
+  double clearance = 0.0;                   // m, > 0 with obstacles
 };
 
 struct PlanResult {
@@ -70,6 +73,9 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
 
 // For implementations that keep no clearance: throws std::invalid_argument for any obstacle.
 void refuse_obstacles(const PlanRequest& request, const std::string& planner);
+
+// For implementations: whether a plan keeps the clearance.
+[[nodiscard]] bool keeps_clear(const Eigen::MatrixXd& positions, const PlanRequest& request);
 
 // For implementations: the result when every node is frozen. Solved when the last node is within
 // the ball, else relaxed by what is missing.

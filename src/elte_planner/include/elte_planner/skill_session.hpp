@@ -73,16 +73,19 @@ struct SessionParams {
   double radius_max = 0.0;       // m, within [radius_min, 1]
   double approach_length = 0.0;  // m, of the skill's end where every node has a goal; 0: the last
   // Every segment not executed keeps `clearance` from them, with the target as predicted for the
-  // end of the skill. When no way is found, the last plan is kept.
+  // time of its end. When no way is found, the plan is kBlocked.
   std::vector<PlacedObstacle> obstacles = {};
-  double clearance = 0.0;  // m, within [0.001, 1] with obstacles
+  double clearance = 0.03;                 // m, within [0.001, 1]
+  std::vector<PlacedVia> via_points = {};  // before the approach
   // Deadline of a solve, the same on every machine; then the last plan is kept.
   int max_iterations = SolveLimits{}.max_iterations;
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
 };
 
-enum class SkillStatus { kNoPlan, kSolved, kRelaxed, kKept };
+// kKept: the last plan, still to be followed. kBlocked: the last plan, which no way that keeps
+// clear of the obstacles could replace; not to be followed further.
+enum class SkillStatus { kNoPlan, kSolved, kRelaxed, kKept, kBlocked };
 
 struct SkillResult {
   SkillStatus status = SkillStatus::kNoPlan;
@@ -104,9 +107,9 @@ class SkillSession {
   // forecast: the one that the progress names; null when it was lost on its way. When it is null
   // or invalid, has no target or a lost one, or the planner fails, the result is the last plan as
   // kKept, or no poses as kNoPlan before the first plan. A coasting target is used, but not for
-  // kOnce. Does not throw for a bad forecast.
-  [[nodiscard]] SkillResult plan(const Progress& progress,
-                                 const prf_core::TargetForecast* forecast);
+  // kOnce. Does not throw for a bad forecast. `seen`: obstacles beside those of the parameters.
+  [[nodiscard]] SkillResult plan(const Progress& progress, const prf_core::TargetForecast* forecast,
+                                 const std::vector<PlacedObstacle>& seen = {});
 
   void reset();  // a new run: forgets the plan
 
@@ -124,10 +127,16 @@ class SkillSession {
     double radius;  // of the l1 ball, m; 0 at a frozen node but the last
   };
 
+  // The target as predicted for the time of a node; the end is reached at end_stamp.
+  prf_core::TargetPrediction target_at(std::size_t node, const prf_core::TargetForecast& forecast,
+                                       prf_core::Stamp end_stamp) const;
   std::vector<NodeGoal> goals(const prf_core::TargetForecast& forecast, prf_core::Stamp end_stamp,
                               Eigen::Index frozen) const;
-  SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals);
-  std::vector<Obstacle> obstacles(const Pose& goal) const;
+  SkillResult adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals, PlanRequest request);
+  // Obstacles and via-points of a request.
+  PlanRequest surroundings(const std::vector<PlacedObstacle>& seen, Eigen::Index frozen,
+                           const prf_core::TargetForecast& forecast,
+                           prf_core::Stamp end_stamp) const;
   SkillResult keep(const std::string& reason, Eigen::Index frozen) const;
 
   SessionParams params_;

@@ -16,6 +16,7 @@ void DmpParams::validate() const {
   require_between("damping", damping, 1e-3, 1e4);
   require_between("phase_decay", phase_decay, 0.1, 20.0);
   require_between("activation", activation, 1e-6, 0.99);
+  require_between("repulsion", repulsion, 0.0, 1e3);
 }
 
 DmpSkillPlanner::DmpSkillPlanner(const Eigen::MatrixXd& demonstration, const DmpParams& params)
@@ -67,9 +68,31 @@ void DmpSkillPlanner::fit() {
   weights_ = denominator.cwiseInverse().asDiagonal() * numerator;
 }
 
+Eigen::RowVectorXd DmpSkillPlanner::push(const PlanRequest& request, Eigen::Index k,
+                                         const Eigen::RowVectorXd& x,
+                                         const Eigen::RowVectorXd& v) const {
+  constexpr double kLeast = 0.005;  // m, where the potential stops growing
+  Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(x.size());
+  const double speed = v.norm();
+  if (!(speed > 0.0)) return result;
+  const auto add = [&](const Obstacle& obstacle) {
+    const Separation gap = separation(obstacle, x.transpose(), x.transpose());
+    if (!(gap.distance > 0.0)) return;
+    const Eigen::RowVectorXd normal = gap.normal.transpose();
+    const double cosine = v.dot(normal) / speed;
+    if (cosine >= 0.0) return;
+    const double p = std::max(gap.distance - request.clearance, kLeast);
+    const Eigen::RowVectorXd turn =  // gradient of cos theta
+        (v / speed - cosine * normal) / std::max(gap.distance, kLeast);
+    result += params_.repulsion * -cosine * speed / p * (2.0 * turn - cosine / p * normal);
+  };
+  for (const Obstacle& obstacle : request.obstacles) add(obstacle);
+  for (const MovingObstacle& places : request.moving) add(places[static_cast<std::size_t>(k)]);
+  return result;
+}
+
 PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
-  refuse_obstacles(request, name());
   const Eigen::Index n = demonstration_.rows();
   if (request.frozen == n) return all_frozen(request);
   constexpr int kSubsteps = 20;
@@ -78,6 +101,7 @@ PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
   const Eigen::MatrixXd frame = frame_displacement(request, demonstration_);
   const Eigen::RowVectorXd goal = request.goal.transpose() - frame.row(n - 1);
   const Eigen::RowVectorXd start = request.previous.row(0);
+  const bool free_space = request.obstacles.empty() && request.moving.empty();
 
   PlanResult result;
   result.positions = request.previous;
@@ -95,10 +119,16 @@ PlanResult DmpSkillPlanner::plan(const PlanRequest& request) {
           (s / std::max(psi.sum(), 1e-300)) * psi.transpose() * weights_;
       v += dt *
            (params_.stiffness * (goal - x - (goal - start) * s + forcing) - params_.damping * v);
+      if (!free_space) v += dt * push(request, k, x + frame.row(k), v);
       x += dt * v;
       time += dt;
     }
     result.positions.row(k) = x + frame.row(k);
+  }
+  if (!keeps_clear(result.positions, request)) {
+    result.status = PlanStatus::kNoWay;
+    result.message = "the obstacles do not push the primitive far enough off";
+    return result;
   }
   const double miss = (goal - x).lpNorm<1>();
   result.slack = std::max(miss - request.radius, 0.0);

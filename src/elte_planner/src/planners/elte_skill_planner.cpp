@@ -19,6 +19,17 @@ void set_ball(Eigen::Index node, const Eigen::VectorXd& centre, double radius,
   constraint.radius = radius;
 }
 
+bool keeps_clear_at(Eigen::Index node, const Eigen::VectorXd& place, const PlanRequest& request) {
+  const auto is_clear = [&](const Obstacle& obstacle) {
+    return separation(obstacle, place, place).distance >= request.clearance;
+  };
+  return std::all_of(request.obstacles.begin(), request.obstacles.end(), is_clear) &&
+         std::all_of(request.moving.begin(), request.moving.end(),
+                     [&](const MovingObstacle& places) {
+                       return is_clear(places[static_cast<std::size_t>(node)]);
+                     });
+}
+
 }  // namespace
 
 ElteSkillPlanner::ElteSkillPlanner(const Eigen::MatrixXd& demonstration, const ElteWeights& weights,
@@ -41,11 +52,9 @@ PlanResult ElteSkillPlanner::plan(const PlanRequest& request) {
   validate_request(request, demonstration_);
   if (request.frozen == demonstration_.rows()) return all_frozen(request);
   PlanResult result = plan_without_obstacles(request);
-  const Eigen::Index moving = demonstration_.rows() - request.frozen + 1;
-  const bool clear = request.obstacles.empty() || result.status == PlanStatus::kFailed ||
-                     polyline_clearance(result.positions.bottomRows(moving), request.obstacles) >=
-                         request.clearance;
-  if (clear) return result;
+  if (result.status == PlanStatus::kFailed || keeps_clear(result.positions, request)) {
+    return result;
+  }
   return plan_around_obstacles(request);
 }
 
@@ -106,15 +115,24 @@ PlanResult ElteSkillPlanner::plan_with_constraints(const PlanRequest& request) {
   return result_from(solution_, radius, request);
 }
 
+// A demonstrated line that leads through an obstacle cannot bind the plan there: goals of the
+// approach nearer to an obstacle than the clearance are left out.
 PlanResult ElteSkillPlanner::plan_around_obstacles(const PlanRequest& request) {
   const double radius = set_problem(request);
+  auto& balls = problem_.constraints;  // the first one is the last node's
+  balls.erase(std::remove_if(balls.begin() + 1, balls.end(),
+                             [&](const PointConstraint& ball) {
+                               return !keeps_clear_at(ball.node, ball.centre, request);
+                             }),
+              balls.end());
   AvoidanceParams params;
   params.max_passes = 50;
   params.max_choices = 16;
-  const AvoidanceSolution found =
-      avoid_obstacles({problem_, request.obstacles, request.clearance, request.previous}, params);
+  const AvoidanceSolution found = avoid_obstacles(
+      {problem_, request.obstacles, request.clearance, request.previous, request.moving}, params);
   PlanResult result;
   result.message = found.message;
+  if (found.status == AvoidanceStatus::kNotFound) result.status = PlanStatus::kNoWay;
   if (found.status != AvoidanceStatus::kSolved) return result;
   return result_from(found.plan, radius, request);
 }

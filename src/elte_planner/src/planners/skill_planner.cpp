@@ -89,8 +89,15 @@ void validate_request(const PlanRequest& request, const Eigen::MatrixXd& demonst
 }
 
 void refuse_obstacles(const PlanRequest& request, const std::string& planner) {
-  prf_core::require(request.obstacles.empty(), "obstacles", request.obstacles.size(),
+  const std::size_t count = request.obstacles.size() + request.moving.size();
+  prf_core::require(count == 0, "obstacles", count,
                     "0: planner " + planner + " keeps no clearance");
+}
+
+bool keeps_clear(const Eigen::MatrixXd& positions, const PlanRequest& request) {
+  if (request.obstacles.empty() && request.moving.empty()) return true;
+  return plan_clearance(positions, request.frozen, request.obstacles, request.moving) >=
+         request.clearance;
 }
 
 PlanResult all_frozen(const PlanRequest& request) {

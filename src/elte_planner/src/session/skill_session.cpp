@@ -57,10 +57,9 @@ void SessionParams::validate() const {
   require_between("radius_max", radius_max, radius_min, 1.0, "m");
   require_between("approach_length", approach_length, 0.0, 10.0, "m");
   require_between("max_iterations", max_iterations, 1, 1000000);
-  if (obstacles.empty()) return;
   require_between("clearance", clearance, 0.001, 1.0, "m");
-  prf_core::require(planner == "elte" || planner == "lte", "planner", planner,
-                    "elte or lte, which keep clear of obstacles");
+  prf_core::require(obstacles.empty() || planner != "elastic_map", "planner", planner,
+                    "elte, lte or dmp, which keep clear of obstacles");
 }
 
 SkillSession::SkillSession(const SessionParams& params, const Demonstration& demonstration)
@@ -73,7 +72,16 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
       demonstrated_orientations_(orientations(demonstration_.samples())),
       planner_(make_skill_planner(
           params.planner, demonstration_.positions(), params.weights,
-          {params.max_step > 0.0 ? params.max_step : kInfinity, params.max_iterations})) {}
+          {params.max_step > 0.0 ? params.max_step : kInfinity, params.max_iterations})) {
+  const auto last = static_cast<double>(params.nodes - 1);
+  const double approach_begins = 1.0 - static_cast<double>(approach_.size() - 1) / last;
+  for (const PlacedVia& via : params_.via_points) {
+    prf_core::require(via.node(params.nodes) >= 2 && via.share < approach_begins,
+                      "share of the path of a via-point", via.share,
+                      "above " + std::to_string(1.5 / last) + " and below " +
+                          std::to_string(approach_begins) + ", where the approach begins");
+  }
+}
 
 void Progress::validate(Eigen::Index nodes) const {
   using prf_core::require;
@@ -100,7 +108,8 @@ std::string SkillSession::shape_warning() const {
   return text.str();
 }
 
-SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* forecast) {
+SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* forecast,
+                               const std::vector<PlacedObstacle>& seen) {
   const Eigen::Index frozen =
       plan_ ? std::clamp<Eigen::Index>(progress.frozen, 2, static_cast<Eigen::Index>(params_.nodes))
             : 2;
@@ -124,19 +133,29 @@ SkillResult SkillSession::plan(const Progress& progress, const TargetForecast* f
   }
   try {
     forecast->validate();
-    return adapt(frozen, goals(*forecast, progress.stamp + progress.time_to_go, frozen));
+    const prf_core::Stamp end_stamp = progress.stamp + progress.time_to_go;
+    return adapt(frozen, goals(*forecast, end_stamp, frozen),
+                 surroundings(seen, frozen, *forecast, end_stamp));
   } catch (const std::invalid_argument& refused) {
     return keep(refused.what(), frozen);
   }
 }
 
-// end_stamp: when the hand reaches the last node.
+prf_core::TargetPrediction SkillSession::target_at(std::size_t node, const TargetForecast& forecast,
+                                                   prf_core::Stamp end_stamp) const {
+  using prf_core::Duration;
+  const auto& nodes = demonstration_.samples();
+  const Duration horizon_max =
+      prf_core::from_seconds(params_.adaptation == Adaptation::kOnce ? 0.0 : params_.horizon_max);
+  const Duration before_end = prf_core::from_seconds(nodes.back().time - nodes[node].time);
+  const Duration horizon =
+      std::clamp(end_stamp - before_end - forecast.stamp, Duration{0}, horizon_max);
+  return prf_core::predicted_target(forecast, forecast.stamp + horizon);
+}
+
 std::vector<SkillSession::NodeGoal> SkillSession::goals(const TargetForecast& forecast,
                                                         prf_core::Stamp end_stamp,
                                                         Eigen::Index frozen) const {
-  using prf_core::Duration;
-  const Duration horizon_max =
-      prf_core::from_seconds(params_.adaptation == Adaptation::kOnce ? 0.0 : params_.horizon_max);
   std::vector<NodeGoal> result;
   result.reserve(approach_.size());
   const TimedPose& end = approach_.back();
@@ -145,10 +164,8 @@ std::vector<SkillSession::NodeGoal> SkillSession::goals(const TargetForecast& fo
   double radius = params_.radius_min;
   for (std::size_t i = 0; i < approach_.size(); ++i) {
     const TimedPose& node = approach_[i];
-    const Duration before_end = prf_core::from_seconds(end.time - node.time);
-    const Duration horizon =
-        std::clamp(end_stamp - before_end - forecast.stamp, Duration{0}, horizon_max);
-    const auto target = prf_core::predicted_target(forecast, forecast.stamp + horizon);
+    const auto target = target_at(static_cast<std::size_t>(params_.nodes) - approach_.size() + i,
+                                  forecast, end_stamp);
     result.push_back({pose_from(target.target.pose.isometry() * node.pose.isometry()), 0.0});
     const std::size_t to_end = approach_.size() - 1 - i;
     if (to_end > 0 && params_.nodes - 1 - static_cast<Eigen::Index>(to_end) < frozen) continue;
@@ -163,13 +180,13 @@ std::vector<SkillSession::NodeGoal> SkillSession::goals(const TargetForecast& fo
   return result;
 }
 
-SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals) {
+SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>& goals,
+                                PlanRequest request) {
   SkillResult result;
   result.poses = plan_ ? plan_->poses : demonstration_.samples();
   result.frozen = frozen;
   result.radius = goals.back().radius;
 
-  PlanRequest request;
   request.previous.resize(params_.nodes, 3);
   for (Eigen::Index k = 0; k < params_.nodes; ++k) {
     request.previous.row(k) = result.poses[static_cast<std::size_t>(k)].pose.position.transpose();
@@ -185,10 +202,13 @@ SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
       request.approach.push_back({node, goals[i].pose.position, goals[i].radius});
     }
   }
-  request.obstacles = obstacles(goals.back().pose);
-  request.clearance = params_.clearance;
   const PlanResult plan = planner_->plan(request);
   if (plan.status == PlanStatus::kFailed) return keep(plan.message, frozen);
+  if (plan.status == PlanStatus::kNoWay) {
+    SkillResult blocked = keep(plan.message, frozen);
+    if (plan_) blocked.status = SkillStatus::kBlocked;
+    return blocked;
+  }
 
   const std::vector<Eigen::Quaterniond> blended = blend_orientations(
       demonstrated_orientations_, orientations(result.poses), frozen, orientation_goals);
@@ -204,12 +224,31 @@ SkillResult SkillSession::adapt(Eigen::Index frozen, const std::vector<NodeGoal>
   return result;
 }
 
-// goal: of the last node; it stands before the target as demonstrated.
-std::vector<Obstacle> SkillSession::obstacles(const Pose& goal) const {
-  const Pose target = pose_from(goal.isometry() * goal_in_target_.isometry().inverse());
-  std::vector<Obstacle> result;
-  for (const PlacedObstacle& obstacle : params_.obstacles) {
-    result.push_back(obstacle.in_planning_frame(target));
+PlanRequest SkillSession::surroundings(const std::vector<PlacedObstacle>& seen, Eigen::Index frozen,
+                                       const TargetForecast& forecast,
+                                       prf_core::Stamp end_stamp) const {
+  PlanRequest result;
+  result.clearance = params_.clearance;
+  const auto target_of = [&](std::size_t node) {
+    return target_at(node, forecast, end_stamp).target.pose;
+  };
+  for (const auto* obstacles : {&params_.obstacles, &seen}) {
+    for (const PlacedObstacle& obstacle : *obstacles) {
+      if (!obstacle.on_target) {
+        result.obstacles.push_back(obstacle.shape);
+        continue;
+      }
+      MovingObstacle& places = result.moving.emplace_back();
+      for (std::size_t k = 0; k < demonstration_.samples().size(); ++k) {
+        places.push_back(obstacle.in_planning_frame(target_of(k)));
+      }
+    }
+  }
+  for (const PlacedVia& via : params_.via_points) {
+    const Eigen::Index node = via.node(params_.nodes);
+    if (node < frozen) continue;
+    result.approach.push_back(
+        {node, via.in_planning_frame(target_of(static_cast<std::size_t>(node))), via.radius});
   }
   return result;
 }

@@ -28,7 +28,9 @@ AvoidanceStatus without_obstacles(EditStatus status) {
 class Avoidance {
  public:
   Avoidance(const AvoidanceProblem& problem, const AvoidanceParams& params)
-      : problem_(problem), params_(params), sides_(problem.obstacles.size()) {
+      : problem_(problem),
+        params_(params),
+        sides_(problem.obstacles.size() + problem.moving.size()) {
     const Eigen::MatrixXd& zeta = problem.edit.zeta;
     extent_ = std::max(1e-300, (zeta.rowwise() - zeta.row(0)).cwiseAbs().maxCoeff());
     first_ = std::max<Index>(problem.edit.fixed.rows(), 1);
@@ -51,8 +53,15 @@ class Avoidance {
   }
 
  private:
+  // During the segment that ends in node k; those in motion count after those at rest.
+  const Obstacle& obstacle_at(std::size_t obstacle, Index k) const {
+    const std::size_t resting = problem_.obstacles.size();
+    return obstacle < resting ? problem_.obstacles[obstacle]
+                              : problem_.moving[obstacle - resting][static_cast<std::size_t>(k)];
+  }
+
   Separation separation_of(const Eigen::MatrixXd& y, Index k, std::size_t obstacle) const {
-    return separation(problem_.obstacles[obstacle], y.row(k - 1).transpose(), y.row(k).transpose());
+    return separation(obstacle_at(obstacle, k), y.row(k - 1).transpose(), y.row(k).transpose());
   }
 
   bool is_clear(double distance) const { return distance >= problem_.clearance - 1e-12 * extent_; }
@@ -136,7 +145,7 @@ class Avoidance {
     EditSolution plan = start;
     AvoidanceSolution found;
     const std::size_t hit = descend(plan, found);
-    if (hit == problem_.obstacles.size()) {
+    if (hit == sides_.size()) {
       const bool better =
           best_.status == AvoidanceStatus::kNotFound || found.plan.energy < best_.plan.energy;
       if (found.status == AvoidanceStatus::kSolved && better) best_ = found;
@@ -171,16 +180,15 @@ class Avoidance {
     if (clear) {
       found.status = AvoidanceStatus::kSolved;
       found.plan = plan;
-      found.clearance =
-          polyline_clearance(plan.y.bottomRows(plan.y.rows() - first_ + 1), problem_.obstacles);
+      found.clearance = plan_clearance(plan.y, first_, problem_.obstacles, problem_.moving);
     }
     return sides_.size();
   }
 
   void add_planes(const Eigen::MatrixXd& y, EditProblem& convex) const {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const Obstacle& obstacle = problem_.obstacles[i];
       for (Index k = first_; k < y.rows(); ++k) {
+        const Obstacle& obstacle = obstacle_at(i, k);
         const Separation present = separation_of(y, k, i);
         const Eigen::VectorXd& away = present.distance > 0.0 ? present.normal : sides_[i];
         const Eigen::VectorXd boundary =
@@ -209,6 +217,12 @@ class Avoidance {
 void AvoidanceProblem::validate() const {
   edit.validate();
   for (const Obstacle& obstacle : obstacles) obstacle.validate(edit.zeta.cols());
+  for (const MovingObstacle& places : moving) {
+    prf_core::require(static_cast<Eigen::Index>(places.size()) == edit.zeta.rows(),
+                      "places of a moving obstacle", places.size(),
+                      std::to_string(edit.zeta.rows()) + ", one for each node");
+    for (const Obstacle& place : places) place.validate(edit.zeta.cols());
+  }
   prf_core::require(
       start.size() == 0 || (start.rows() == edit.zeta.rows() && start.cols() == edit.zeta.cols() &&
                             is_within_magnitude(start)),

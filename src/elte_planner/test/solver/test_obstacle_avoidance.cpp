@@ -176,6 +176,42 @@ TEST(ObstacleAvoidance, FindsNoWayToAGoalOrFromAStartInsideAnObstacle) {
   }
 }
 
+TEST(ObstacleAvoidance, ATurnedBoxIsAsFarAsTheSameScenePutStraight) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const auto point = [&] { return Eigen::Vector2d(uniform(random), uniform(random)); };
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(3.0 * uniform(random)).toRotationMatrix();
+    const Obstacle straight_box = Obstacle::box(point(), {0.3, 0.1});
+    const Obstacle turned = Obstacle::box(turn * straight_box.centre, {0.3, 0.1}, turn);
+    const Eigen::Vector2d from = 2.0 * point(), to = 2.0 * point();
+    const Separation expected = separation(straight_box, from, to);
+    const Separation found = separation(turned, turn * from, turn * to);
+    ASSERT_NEAR(found.distance, expected.distance, 1e-12);
+    if (expected.distance > 0.0) {
+      ASSERT_LE((found.normal - turn * expected.normal).norm(), 1e-9);
+    }
+    ASSERT_NEAR(turned.reach(turn * from), straight_box.reach(from), 1e-12);
+  }
+}
+
+// At the start it is far off, and in the way when the plan comes there.
+TEST(ObstacleAvoidance, KeepsClearOfWhereAnObstacleIsAtTheTimeOfEachSegment) {
+  AvoidanceProblem problem = straight(40);
+  MovingObstacle places;
+  for (int k = 0; k < 40; ++k) {
+    places.push_back(Obstacle::disc(Eigen::Vector2d(0.5, 0.02 + 0.05 * std::abs(k - 20)), 0.1));
+  }
+  problem.moving = {places};
+  const AvoidanceSolution solution = avoid_obstacles(problem);
+  ASSERT_EQ(solution.status, AvoidanceStatus::kSolved) << solution.message;
+  const double found = plan_clearance(solution.plan.y, problem.edit.fixed.rows(), {}, {places});
+  EXPECT_GE(found, problem.clearance - 1e-9);
+  EXPECT_LE(found, problem.clearance + 1e-3);
+  problem.moving[0].pop_back();
+  EXPECT_THROW((void)avoid_obstacles(problem), std::invalid_argument);
+}
+
 TEST(ObstacleAvoidance, InvalidObstaclesAreRefused) {
   const auto refused = [](auto&& change) {
     AvoidanceProblem problem = straight(10);
@@ -192,6 +228,7 @@ TEST(ObstacleAvoidance, InvalidObstaclesAreRefused) {
   refused([](AvoidanceProblem& p) { p.obstacles[0].centre.conservativeResize(1); });
   refused([](AvoidanceProblem& p) { p.obstacles[0].centre[0] = std::nan(""); });
   refused([](AvoidanceProblem& p) { p.obstacles[1].half_widths[1] = -0.1; });
+  refused([](AvoidanceProblem& p) { p.obstacles[1].axes = Eigen::Matrix2d::Ones(); });
   refused([](AvoidanceProblem& p) { p.obstacles[1].half_widths.conservativeResize(1); });
 }
 

@@ -10,8 +10,8 @@
 namespace platform_sim {
 
 /// Contact of a pair of links during one control period. Names are URDF links, except `body`
-/// (base_link and all that is fixed to it), `box` (its five walls), `post` or `cart`, and
-/// `platform` (the floor too).
+/// (base_link and all that is fixed to it), `box` (its five walls), `post` or `cart`,
+/// `obstacle` (the post before the box), and `platform` (the floor too).
 struct Contact {
   std::string link_a;  ///< link_a < link_b in alphabetical order
   std::string link_b;

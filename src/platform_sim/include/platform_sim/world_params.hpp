@@ -22,6 +22,8 @@ struct WorldParams {
   /// pushes aside (once by CartPush::draw(), else as `disturb` says), and motion must be none;
   /// quay: it stands in the world, and the robot alone is on the platform.
   std::string scenario = "treadmill";
+  std::string obstacle =
+      "none";                   ///< post: one stands in the way of a hand that comes from the side
   std::string motion = "none";  ///< see find_profile()
   std::string body_motion;      ///< CSV file: carries base_link over the deck; empty: legs do
   std::string disturb;          ///< see Disturbances
@@ -43,6 +45,7 @@ struct WorldParams {
 
   [[nodiscard]] static const std::vector<std::string>& scenario_names();
   [[nodiscard]] bool target_stands_ashore() const;
+  [[nodiscard]] static const std::vector<std::string>& obstacle_names();
   /// The target as the scenario places it.
   [[nodiscard]] camera_sim::TargetBox placed_target() const;
   /// Throws std::invalid_argument with name, value and bound.

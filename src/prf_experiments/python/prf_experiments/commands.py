@@ -6,7 +6,7 @@ from prf_experiments import files
 from prf_experiments.judge import cause, invariants, judge, reaction, timeline
 from prf_experiments.record import digest, recording
 from prf_experiments.run import arguments as args
-from prf_experiments.run import session
+from prf_experiments.run import session, trial
 from prf_experiments.teach import demonstration
 
 EXIT_INVALID, EXIT_VIOLATION = 3, 4
@@ -99,8 +99,8 @@ def report_main(words: list[str]) -> int:
         data = _read(options.bag)
         verdict, found = _checked(data)
         description = data.description
-        skill = (options.demonstration or description.get("arguments", {}).get("demonstration")
-                 or session.packaged("demonstrations", "inspect_box.csv"))
+        skill = options.demonstration or trial.skill(
+            {"demonstration": None, **description.get("arguments", {})})
         content = {**description, **verdict.as_json(), "cause": cause.sentence(data, verdict),
                    "invariants": found.as_json(), "reaction": reaction.times(data)}
         session.waiting("drawing film, key frames and figures")

@@ -7,8 +7,8 @@ from typing import Any
 
 import yaml
 
-KINDS = ("clock", "sensor", "ground_truth", "output", "transform", "exempt", "description",
-         "teaching")
+KINDS = ("clock", "sensor", "surroundings", "ground_truth", "output", "transform", "exempt",
+         "description", "teaching")
 PATH_IN_SOURCES = os.path.join(os.path.dirname(__file__), "..", "..", "interfaces.yaml")
 
 

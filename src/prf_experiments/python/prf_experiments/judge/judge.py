@@ -41,6 +41,7 @@ OUT_OF_VIEW_LIMIT = 1 * SECOND
 
 FALLEN_HEIGHT = interfaces.load().fallen_height  # m, body above the deck along the deck's normal
 FALLEN_TILT = interfaces.load().fallen_tilt  # rad, body's z axis to the deck's normal
+OBSTACLE = "obstacle"  # the link that the simulator puts in the way
 LYING = ("body", "platform")  # links whose contact means the same
 
 MAX_IMAGES_IN_FLIGHT = 3  # in flight when the trial ends
@@ -108,6 +109,14 @@ def strongest_by_pair(contacts: list[Contact]) -> dict[str, float]:
         pair = " | ".join(contact.links)
         strongest[pair] = max(strongest.get(pair, 0.0), contact.force)
     return strongest
+
+
+def obstacle_contact(recording: Recording) -> float | None:
+    """Largest force of arm, hand or camera on the obstacle, N; None when none stood there."""
+    if recording.description.get("arguments", {}).get("obstacle", "none") == "none":
+        return None
+    return max((contact.force for contact in arm_contacts(recording.contacts)
+                if OBSTACLE in contact.links), default=0.0)
 
 
 def posture(platform: np.ndarray, base: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -249,6 +258,7 @@ def judge(recording: Recording) -> Verdict:
         "images_seen_fraction": float(np.mean(seen)),
         "largest_contact_n": force,
         "largest_contact_by_pair_n": pairs,
+        "largest_obstacle_contact_n": obstacle_contact(recording),
         "smallest_lateral_mm": 1e3 * float(np.min(lateral)),
         "smallest_along_error_mm": 1e3 * float(np.min(np.abs(along - STAND_OFF))),
         "final_lateral_mm": 1e3 * float(lateral[-1]),

@@ -9,6 +9,7 @@ TABLE = interfaces.load()
 
 CLOCK = TABLE.of_kind("clock")
 SENSORS = TABLE.of_kind("sensor")
+SURROUNDINGS = TABLE.of_kind("surroundings")
 GROUND_TRUTH = TABLE.of_kind("ground_truth")
 OUTPUTS = TABLE.of_kind("output")
 TRANSFORMS = TABLE.of_kind("transform")

@@ -12,12 +12,13 @@ from prf_experiments import files
 from prf_experiments.faults import catalogue, disturbances, wiring
 from prf_experiments.record import digest, recording, topics
 from prf_experiments.run import arguments as args
-from prf_experiments.run import connections, processes, session
+from prf_experiments.run import connections, processes, session, trial
 from prf_msgs import bags
 
-PLAYED = topics.CLOCK + topics.SENSORS
+NEEDED = topics.CLOCK + topics.SENSORS
+PLAYED = NEEDED + topics.SURROUNDINGS
 COMPARED = ["/" + topic for topic in topics.OUTPUTS + topics.TRANSFORMS]
-FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "hmm", "approach", "demonstration"]
+FRAMEWORK_ARGUMENTS = ["planner", "predictor", "framework", "decision", "hmm", "approach", "avoid"]
 
 
 @contextlib.contextmanager
@@ -53,7 +54,7 @@ def check(bag: str) -> None:
     """Looks into the bag before a node starts: without sensors nothing can be played, without
     outputs nothing compared."""
     with bags.opened(bag) as content:
-        bags.require_messages(content, PLAYED)
+        bags.require_messages(content, NEEDED)
         bags.require_types(content, {*PLAYED, *topics.OUTPUTS, *topics.TRANSFORMS})
         found = bags.counts(content)
         if not any(found.get(name.lstrip("/")) for name in COMPARED):
@@ -72,6 +73,7 @@ def replay(bag: str, folder: str, rate: float) -> str:
         launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
                           if chosen.get(name) is not None]
+        + (trial.skill_arguments(chosen) if "demonstration" in chosen else [])
         + ["relayed:=" + "".join(f"/{topic}:" for topic in catalogue.relayed(faults))],
         topics=topics.OUTPUTS + topics.TRANSFORMS,
         links=wiring.replayed(links, faults, "/player"), driver="player")

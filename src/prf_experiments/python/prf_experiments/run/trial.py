@@ -123,7 +123,18 @@ def evaluate(folder: str, description: dict, wall: float | None, failure: str,
 
 
 def skill(values: dict) -> str:
-    return values["demonstration"] or session.packaged("demonstrations", "inspect_box.csv")
+    """The file of the skill: the one that the arguments name, else the package's own."""
+    if values["demonstration"]:
+        return values["demonstration"]
+    stands = values.get("obstacle", "none") != "none"
+    return session.packaged("demonstrations",
+                            "inspect_box_from_the_right.csv" if stands else "inspect_box.csv")
+
+
+def skill_arguments(values: dict) -> list[str]:
+    """For a launch file whose own default is the skill without an obstacle."""
+    is_default = not values["demonstration"] and values.get("obstacle", "none") == "none"
+    return [] if is_default else [f"demonstration:={skill(values)}"]
 
 
 def session_of(values: dict, folder: str) -> session.Session:
@@ -138,7 +149,8 @@ def session_of(values: dict, folder: str) -> session.Session:
     return session.Session(
         folder=folder, bag="trial.bag", launch_file=session.packaged("launch", "trial.launch"),
         launch_arguments=[f"{name}:={args.show(value)}" for name, value in launched.items()
-                          if value is not None] + ["paused:=true"],
+                          if value is not None and name != "demonstration"]
+        + skill_arguments(values) + ["paused:=true"],
         topics=topics.TABLE.recorded + wiring.recorded(faults),
         links=wiring.rewired(links, faults) if faults else links,
         driver=SIMULATOR, may_end=tuple(catalogue.ended_nodes(faults)))

@@ -80,6 +80,10 @@ LAUNCHED = {
     "disturb": Argument("", **disturbed(),
                         meaning="what is done to robot, cart or camera, listed below; several with "
                         "commas"),
+    "obstacle": Argument("none", **choice("none", "post"),
+                         meaning="post: stands before the box, at its right, in the way of "
+                         "demonstration:=inspect_box_from_the_right, which it makes the default"),
+    "avoid": Argument(True, **boolean(), meaning="false: the planner does not heed the obstacle"),
     "body_motion": Argument("", **choice_or_file("", endings=(".csv",)),
                             meaning="recorded motion of the body over the deck"),
     "method": Argument("default", **choice("default", "paper"),
@@ -137,6 +141,8 @@ def complete(values: dict, words: Sequence[str]) -> dict:
         if disturbances.moves_cart(values["disturb"]):
             raise ArgumentError(f"disturb:={values['disturb']} pushes a cart, valid: scenario:=cart")
         return values
+    if values["obstacle"] != "none":
+        raise ArgumentError("obstacle:=post does not go with scenario:=cart, valid: obstacle:=none")
     asked = [word for word in words if word.startswith("motion:=")]
     if asked and values["motion"] != "none":
         raise ArgumentError(f"{asked[-1]} does not go with scenario:=cart, valid: motion:=none")

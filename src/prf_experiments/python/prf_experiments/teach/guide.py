@@ -2,7 +2,7 @@
 """The hand of a person who shows the robot where to go: a spring from a guide point to the hand.
 
 The guide goes from where the hand is to the stand-off before the tag on a cubic Bezier curve that
-ends along the tag's normal, with the time law s(u) = 10 u^3 - 15 u^4 + 6 u^5, which starts and
+ends along the tag's normal, and which a detour may bend out, with the time law s(u) = 10 u^3 - 15 u^4 + 6 u^5, which starts and
 stops without a jerk. Force and torque on the hand:
     f = k (x_guide - x) - d v        t = k_r log(q_guide q^-1) - d_r w
 """
@@ -23,6 +23,8 @@ FACING = np.array([1.0, 0.0, 0.0, 0.0])
 class GuideParams:
     stand_off: float  # m
     run_in: float  # m
+    detour_right: float  # m, of the first bend, as seen by a viewer in front of the tag
+    detour_forward: float  # m, of the first bend, toward the tag
     settle_time: float  # s
     guide_time: float  # s
     stiffness: float  # N/m
@@ -68,8 +70,10 @@ class Guide:
         self._goal = stand_off_pose(tag, camera_in_hand, parameters.stand_off)
         normal = geometry.rotation(tag).apply([0.0, 0.0, 1.0])
         bend = self._goal[:3] + parameters.run_in * normal
-        self._control_points = np.array(
-            [self._start[:3], 0.5 * (self._start[:3] + bend), bend, self._goal[:3]])
+        right = geometry.rotation(tag).apply([1.0, 0.0, 0.0])
+        first_bend = (0.5 * (self._start[:3] + bend) + parameters.detour_right * right
+                      - parameters.detour_forward * normal)
+        self._control_points = np.array([self._start[:3], first_bend, bend, self._goal[:3]])
         self._turn = Slerp([0.0, 1.0], geometry.rotation(np.array([self._start, self._goal])))
         self._last: tuple[float, np.ndarray] | None = None  # stamp and pose of the hand
 

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import tempfile
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.spatial.transform import Slerp
@@ -111,11 +112,12 @@ def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstra
     return demonstration.make(times, poses, target, command)
 
 
-def teach(folder: str, seed: int) -> str:
-    """Records folder/teach.bag with the arm led to the target."""
+def teach(folder: str, seed: int, detour: Sequence[float] = (0.0, 0.0)) -> str:
+    """Records folder/teach.bag with the arm led to the target, by a detour to the right and forward, m."""
     lesson = session.Session(
         folder=folder, bag="teach.bag", launch_file=session.packaged("launch", "teach.launch"),
-        launch_arguments=[f"seed:={seed}", "paused:=true"], topics=RECORDED,
+        launch_arguments=[f"seed:={seed}", "paused:=true", f"detour_right:={detour[0]}",
+                          f"detour_forward:={detour[1]}"], topics=RECORDED,
         links=LINKS | session.recorder_links(topics.SENSORS, "platform_sim"),
         driver="platform_sim")
     with lesson.running() as launch, contextlib.ExitStack() as stack:
@@ -138,6 +140,8 @@ def teach_main(words: list[str]) -> int:
         "writes the demonstration.")
     parser.add_argument("out", help="demonstration file to write")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--detour", type=float, nargs=2, default=(0.0, 0.0), metavar=("RIGHT", "FORWARD"),
+                        help="bends the way out to the right and toward the tag, m")
     parser.add_argument("--folder", help="keeps teach.bag and the logs there")
     options = parser.parse_args(words)
 
@@ -146,8 +150,10 @@ def teach_main(words: list[str]) -> int:
             folder = os.path.abspath(
                 options.folder or stack.enter_context(tempfile.TemporaryDirectory()))
             os.makedirs(os.path.join(folder, "log"), exist_ok=True)
-            command = f"rosrun prf_experiments run_teach --seed {options.seed} OUT"
-            result = convert(teach(folder, options.seed), command)
+            detour = "".join(f" {length:g}" for length in options.detour) if any(options.detour) else ""
+            command = (f"rosrun prf_experiments run_teach --seed {options.seed}"
+                       + (f" --detour{detour}" if detour else "") + " OUT")
+            result = convert(teach(folder, options.seed, options.detour), command)
         demonstration.write(options.out, result)
         print(f"{len(result.times)} poses over {result.times[-1]:.1f} s: {options.out}")
         return 0

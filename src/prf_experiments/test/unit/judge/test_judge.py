@@ -31,6 +31,19 @@ def with_contact(force, links=(BOX, PALM)):
     return data
 
 
+class OnTheObstacle(unittest.TestCase):
+    def test_contact_with_the_obstacle_is_a_figure_of_its_own_beside_the_verdict(self):
+        for obstacle, links, expected in (("post", (judge.OBSTACLE, PALM), 5.0), ("post", (BOX, PALM), 0.0),
+                                          ("post", (judge.OBSTACLE, "body"), 0.0), ("none", (BOX, PALM), None)):
+            data = with_contact(5.0, links)
+            data.description["arguments"] = {**data.description.get("arguments", {}), "obstacle": obstacle}
+            self.assertEqual(judge.judge(data).figures["largest_obstacle_contact_n"], expected)
+
+    def test_it_is_judged_as_any_contact(self):
+        self.assertEqual(judge.judge(with_contact(5.0, (judge.OBSTACLE, PALM))).verdict, "P")
+        self.assertEqual(judge.judge(with_contact(51.0, (judge.OBSTACLE, PALM))).verdict, "F")
+
+
 class Reached(unittest.TestCase):
     def test_holding_the_stand_off_is_a_success_and_inspected(self):
         verdict = judge.judge(synthetic.make_recording())

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
 
-PARAMETERS = {"stand_off": 0.3, "run_in": 0.25, "settle_time": 1.0, "guide_time": 10.0, "stiffness": 400.0,
+PARAMETERS = {"stand_off": 0.3, "run_in": 0.25, "detour_right": 0.0, "detour_forward": 0.0, "settle_time": 1.0, "guide_time": 10.0, "stiffness": 400.0,
                   "damping": 40.0, "angular_stiffness": 30.0, "angular_damping": 3.0}
 CAMERA_IN_HAND = np.array([0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
 # Seen from the front along +x: tag x to the right (-y), y up (+z), z toward the viewer (-x).
@@ -34,6 +34,15 @@ class Guide(unittest.TestCase):
     def test_starts_at_the_hand_and_rests_there(self):
         for stamp in (5.0, 6.0):
             np.testing.assert_allclose(make().pose(stamp), HAND, atol=1e-12)
+
+    def test_a_detour_bends_the_path_out_to_the_right_and_toward_the_tag(self):
+        def in_tag(leader):
+            path = np.array([leader.pose(stamp) for stamp in np.linspace(6.0, 16.0, 50)])
+            return geometry.compose(geometry.inverse(TAG), path)[:, :3]
+        out = in_tag(make(detour_right=0.2, detour_forward=0.1)) - in_tag(make())
+        np.testing.assert_allclose(out[[0, -1]], 0.0, atol=1e-12)
+        np.testing.assert_allclose(out[:, 2], -0.5 * out[:, 0], atol=1e-12)
+        self.assertAlmostEqual(np.max(out[:, 0]), 0.2 * 4 / 9, delta=1e-3)
 
     def test_starts_and_stops_gently(self):
         leader, step = make(), 1e-3
