@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -181,9 +182,11 @@ TEST(ObstacleAvoidance, ATurnedBoxIsAsFarAsTheSameScenePutStraight) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {
     const auto point = [&] { return Eigen::Vector2d(uniform(random), uniform(random)); };
-    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(3.0 * uniform(random)).toRotationMatrix();
-    const Obstacle straight_box = Obstacle::box(point(), {0.3, 0.1});
-    const Obstacle turned = Obstacle::box(turn * straight_box.centre, {0.3, 0.1}, turn);
+    const Eigen::Matrix2d turn =
+        Eigen::Rotation2D<double>(3.0 * uniform(random)).toRotationMatrix();
+    const Obstacle straight_box = Obstacle::box(point(), Eigen::Vector2d(0.3, 0.1));
+    const Obstacle turned =
+        Obstacle::box(turn * straight_box.centre, Eigen::Vector2d(0.3, 0.1), turn);
     const Eigen::Vector2d from = 2.0 * point(), to = 2.0 * point();
     const Separation expected = separation(straight_box, from, to);
     const Separation found = separation(turned, turn * from, turn * to);

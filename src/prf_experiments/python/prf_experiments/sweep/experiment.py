@@ -19,7 +19,7 @@ STUDIES = {
     "compare": "distances of ELTE, DMP, LTE and elastic maps, stepping, paired by seed",
     "ablate": "predictor, decision, planner and approach under heavy motion, stepping",
     "cart": "the box is pushed aside during the execution",
-    "obstacle": "a post in the way of the demonstrated path, heeded or not",
+    "obstacles": "a post in the way of the demonstrated path, heeded or not",
     "faults": "every fault injected, standing and stepping: verdict, time to hold and to recover",
     "limits": "families of worlds with rising severity: where the framework breaks, and its parts",
     "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",

@@ -6,7 +6,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 from made_up import result
 from prf_experiments.run import trial
-from prf_experiments.sweep import obstacle
+from prf_experiments.sweep import obstacles
 
 
 def trials(avoid, *forces):
@@ -18,7 +18,7 @@ def trials(avoid, *forces):
 
 class PostInTheWay(unittest.TestCase):
     def test_the_table_has_the_contact_with_and_without_avoidance(self):
-        text = obstacle.text(obstacle.summarise(trials(False, 12.0, 40.0) + trials(True, 0.0, 0.3)))
+        text = obstacles.text(obstacles.summarise(trials(False, 12.0, 40.0) + trials(True, 0.0, 0.3)))
         self.assertRegex(text, r"stand +no +S S +2 of 2 +12\.0 +40\.0 +0\.4")
         self.assertRegex(text, r"stand +yes +S S +0 of 2 +0\.0 +0\.3 +0\.4")
 
