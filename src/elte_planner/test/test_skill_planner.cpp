@@ -236,6 +236,10 @@ TEST(DynamicMovementPrimitive, IsPushedOffAnObstacleBesideItsWay) {
   EXPECT_GE(plan_clearance(around.positions, 2, request.obstacles, {}), request.clearance);
   EXPECT_LE((around.positions.row(99) - free.positions.row(99)).norm(), 0.02);
   request.obstacles = {Obstacle::disc(Eigen::Vector2d(0.5, 0.5), 0.05)};  // over the goal
+  const PlanResult before_it = planner->plan(request);
+  EXPECT_EQ(before_it.status, PlanStatus::kRelaxed);
+  EXPECT_GE(plan_clearance(before_it.positions, 2, request.obstacles, {}), request.clearance);
+  request.obstacles = {Obstacle::disc(Eigen::Vector2d(0.02, 0.0), 0.05)};  // over the start
   EXPECT_EQ(planner->plan(request).status, PlanStatus::kNoWay);
 }
 

@@ -73,13 +73,11 @@ SkillSession::SkillSession(const SessionParams& params, const Demonstration& dem
       planner_(make_skill_planner(
           params.planner, demonstration_.positions(), params.weights,
           {params.max_step > 0.0 ? params.max_step : kInfinity, params.max_iterations})) {
-  const auto last = static_cast<double>(params.nodes - 1);
-  const double approach_begins = 1.0 - static_cast<double>(approach_.size() - 1) / last;
+  const Eigen::Index begin = params.nodes - static_cast<Eigen::Index>(approach_.size());
   for (const PlacedVia& via : params_.via_points) {
-    prf_core::require(via.node(params.nodes) >= 2 && via.share < approach_begins,
-                      "share of the path of a via-point", via.share,
-                      "above " + std::to_string(1.5 / last) + " and below " +
-                          std::to_string(approach_begins) + ", where the approach begins");
+    const Eigen::Index node = via.node(params.nodes);
+    prf_core::require(node >= 2 && node < begin, "via_points: node of a share of the path", node,
+                      "within [2, " + std::to_string(begin - 1) + "], before the approach");
   }
 }
 

@@ -111,7 +111,7 @@ TEST(SkillSession, KeepsClearOfAnObstacleOnTheMovingTarget) {
   around.clearance = 0.02;
   SkillSession session(around, reach());
   const std::vector<PlacedObstacle> seen =
-      obstacles_from("box on_target -0.5 0.1 -0.25 0.02 0.02 0.1");
+      obstacles_from("box on_target -0.496 0.258 -0.25 0.03 0.03 0.1");
   const TargetForecast forecast = drifting();
   const Progress now = at(2, 1.9);  // all within the forecast's reach
   const SkillResult plan = session.plan(now, &forecast, seen);
