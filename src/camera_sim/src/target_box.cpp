@@ -100,7 +100,7 @@ Cuboid TargetBox::post() const {
 
 // Beside the straight way to the tag, in the way of one that comes from the right.
 Cuboid TargetBox::obstacle() const {
-  constexpr double kRight = 0.17;   // m, of the tag's centre
+  constexpr double kRight = 0.20;   // m, of the tag's centre
   constexpr double kBefore = 0.26;  // m, the tag's face
   constexpr double kWidth = 0.04;   // m
   constexpr double kAbove = 0.25;   // m, of its top over the tag's centre

@@ -23,7 +23,7 @@ class Table(unittest.TestCase):
     table = interfaces.load()
 
     def test_a_bag_holds_these_topics_in_this_order(self):
-        self.assertEqual(self.table.recorded, ["clock", *SENSORS, *TRUTH, *OUTPUTS, "tf",
+        self.assertEqual(self.table.recorded, ["clock", *SENSORS, "obstacles", *TRUTH, *OUTPUTS, "tf",
                                                "tf_static", "diagnostics", "rosout",
                                                "trial/description", "fault/events"])
 

@@ -3,6 +3,7 @@
 #include <prf_ros/conversions.hpp>
 
 #include "../../elte_planner/node/conversions.hpp"
+#include "elte_planner/obstacle_history.hpp"
 #include "elte_planner/request_queue.hpp"
 #include "elte_planner/skill_session.hpp"
 #include "fuzz_target.hpp"
@@ -39,14 +40,19 @@ SkillSession& shared_session() {  // it takes long to make
 
 struct Planner {
   RequestQueue queue;
+  ObstacleHistory obstacles;
   SkillSession& skill = shared_session();
   bool planned = false;
 
   void drain() {
     while (const auto request = queue.next()) {
-      if (request->new_run) skill.reset();
+      if (request->new_run) {
+        skill.reset();
+        obstacles.begin_run(request->progress.stamp);
+      }
       const auto result =
-          skill.plan(request->progress, request->forecast ? &*request->forecast : nullptr);
+          skill.plan(request->progress, request->forecast ? &*request->forecast : nullptr,
+                     obstacles.at(request->progress.stamp));
       planned = result.status == SkillStatus::kSolved || result.status == SkillStatus::kRelaxed;
       for (const TimedPose& node : result.poses) {
         fuzz::expect(node.pose.is_finite(), "a plan is finite");
@@ -74,17 +80,22 @@ FUZZ_TARGET(planner_messages) {
     fuzz::accepts([&] {
       prf_msgs::TargetForecast forecast;
       prf_msgs::ExecutionProgress progress;
-      if (kind % 2 == 0 && fuzz::read(part, forecast)) {
+      visualization_msgs::MarkerArray markers;
+      if (kind % 3 == 0 && fuzz::read(part, forecast)) {
         planner.queue.add(forecast_from(forecast).first);
-      } else if (kind % 2 == 1 && fuzz::read(part, progress)) {
+      } else if (kind % 3 == 1 && fuzz::read(part, progress)) {
         const Progress asked = progress_from(progress);
         asked.validate(kNodes);
         planner.queue.add(asked);
+      } else if (kind % 3 == 2 && fuzz::read(part, markers)) {
+        auto [stamp, obstacles] = obstacles_from(markers, "j2s7s300_link_base", "tag_0");
+        planner.obstacles.add(stamp, std::move(obstacles));
       }
     });
     planner.drain();
   });
   planner.planned = false;
+  planner.obstacles = {};  // they may block the way
   for (int i = 0; i < 8 && !planner.planned; ++i) {
     const prf_core::Stamp stamp = std::chrono::hours(100) + std::chrono::milliseconds(33 * i);
     planner.queue.add(good_forecast(stamp));
