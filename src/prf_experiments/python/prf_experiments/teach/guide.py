@@ -2,8 +2,8 @@
 """The hand of a person who shows the robot where to go: a spring from a guide point to the hand.
 
 The guide goes from where the hand is to the stand-off before the tag on a cubic Bezier curve that
-ends along the tag's normal, and which a detour may bend out, with the time law s(u) = 10 u^3 - 15 u^4 + 6 u^5, which starts and
-stops without a jerk. Force and torque on the hand:
+ends along the tag's normal, and which a detour may bend out, with the time law
+s(u) = 10 u^3 - 15 u^4 + 6 u^5, which starts and stops without a jerk. Force and torque on the hand:
     f = k (x_guide - x) - d v        t = k_r log(q_guide q^-1) - d_r w
 """
 import math

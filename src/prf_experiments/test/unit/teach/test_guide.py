@@ -7,7 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from prf_experiments import geometry
 
-PARAMETERS = {"stand_off": 0.3, "run_in": 0.25, "detour_right": 0.0, "detour_forward": 0.0, "settle_time": 1.0, "guide_time": 10.0, "stiffness": 400.0,
+PARAMETERS = {"stand_off": 0.3, "run_in": 0.25, "detour_right": 0.0, "detour_forward": 0.0,
+                  "settle_time": 1.0, "guide_time": 10.0, "stiffness": 400.0,
                   "damping": 40.0, "angular_stiffness": 30.0, "angular_damping": 3.0}
 CAMERA_IN_HAND = np.array([0.0, 0.07, -0.12, 0.0, 0.0, 1.0, 0.0])
 # Seen from the front along +x: tag x to the right (-y), y up (+z), z toward the viewer (-x).
