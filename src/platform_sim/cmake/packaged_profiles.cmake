@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Writes packaged_profiles.cpp into the build folder of whoever includes this: the profiles of the
 # platform's motion are built in, so that a core that knows no ROS finds them.
-get_filename_component(platform_sim_folder ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
-file(GLOB profiles CONFIGURE_DEPENDS ${platform_sim_folder}/config/profiles/*.yaml)
+file(GLOB profiles CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../config/profiles/*.yaml)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${profiles})
 set(PACKAGED_PROFILES "")
 foreach(profile ${profiles})
@@ -10,4 +9,4 @@ foreach(profile ${profiles})
   file(READ ${profile} text)
   string(APPEND PACKAGED_PROFILES "      {\"${name}\", R\"yaml(${text})yaml\"},\n")
 endforeach()
-configure_file(${platform_sim_folder}/src/motion/packaged_profiles.cpp.in packaged_profiles.cpp @ONLY)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/../src/motion/packaged_profiles.cpp.in packaged_profiles.cpp @ONLY)
