@@ -113,9 +113,12 @@ class Interfaces:
         """Names of the nodes between world and recorder, in the order of the data."""
         return [node.name for node in self.nodes if node.name not in ("world", "recorder")]
 
+    def named(self, name):
+        return next(topic for topic in self.topics if topic.bare_name == name.lstrip("/"))
+
     def type_of(self, name):
         """package/Type of a topic."""
-        return next(topic.type for topic in self.topics if topic.bare_name == name.lstrip("/"))
+        return self.named(name).type
 
 
 def load(path=None):

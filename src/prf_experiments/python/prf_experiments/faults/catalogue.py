@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from prf_experiments.run.arguments import meant
 
 TOPICS = ("joint_states", "camera/image_raw", "camera/camera_info", "tag_detections", "tf",
-          "target/forecast", "skill/trajectory", "execution/progress", "execution/setpoint",
-          "joint_command", "control/status")
+          "target/forecast", "obstacles", "skill/trajectory", "execution/progress",
+          "execution/setpoint", "joint_command", "control/status")
 NODES = ("robot_state_publisher", "tag_detector", "target_predictor", "decision", "skill_planner",
          "arm_controller", "platform_sim", "recorder")
 SENSED = ("joint_states", "camera/image_raw", "camera/camera_info")

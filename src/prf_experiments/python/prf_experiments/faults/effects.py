@@ -7,7 +7,7 @@ import copy
 import math
 import random
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import genpy
@@ -27,20 +27,25 @@ Effect = Callable[[Any, random.Random], list[tuple[float, Any]]]
 Place = tuple[Any, str, int | None, str]  # object, field, index in it, type
 
 
+def _stamped_parts(message: Any) -> Sequence[Any]:
+    """The transforms of tf, the markers of obstacles: each has a header of its own."""
+    return getattr(message, "transforms", None) or getattr(message, "markers", None) or ()
+
+
 def stamp_of(message: Any) -> int:
-    """ns; of the first transform of tf, 0 where there is none."""
+    """ns; of the first transform or marker, 0 where there is none."""
     if hasattr(message, "header"):
         return message.header.stamp.to_nsec()
     if hasattr(message, "clock"):
         return message.clock.to_nsec()
-    transforms = getattr(message, "transforms", [])
-    return transforms[0].header.stamp.to_nsec() if transforms else 0
+    parts = _stamped_parts(message)
+    return parts[0].header.stamp.to_nsec() if parts else 0
 
 
 def shifted(message: Any, shift: int) -> Any:
     """The message with all its header stamps moved by so many ns, within ROS time."""
     message = copy.deepcopy(message)
-    for part in [message, *getattr(message, "transforms", [])]:
+    for part in [message, *_stamped_parts(message)]:
         if hasattr(part, "header"):
             moved = min(max(part.header.stamp.to_nsec() + shift, 0), LAST)
             part.header.stamp = genpy.Time(moved // SECOND, moved % SECOND)

@@ -63,7 +63,8 @@ class Injector:
     def _relay(self, topic, faults, seed):
         kind = message_class(topic)
         self._channels[topic] = effects.Channel(faults, seed, self.tell)
-        self._out[topic] = rospy.Publisher(faulty(topic), kind, queue_size=QUEUE, tcp_nodelay=True)
+        self._out[topic] = rospy.Publisher(faulty(topic), kind, queue_size=QUEUE, tcp_nodelay=True,
+                                            latch=topics.TABLE.named(topic).latched)
         if topic != "joint_states":
             rospy.Subscriber(_name(topic), kind, functools.partial(self._take, topic),
                              queue_size=QUEUE, tcp_nodelay=True)

@@ -14,6 +14,7 @@ WORDS: dict[str, tuple[str, str, float]] = {
     "longest_out_of_view_s": ("longest time without a detection", "s", 1.0),
     "images_seen_fraction": ("images in which the tag was detected", "%", 100.0),
     "largest_contact_n": ("largest contact of arm, hand or camera", "N", 1.0),
+    "largest_obstacle_contact_n": ("largest contact with an obstacle", "N", 1.0),
     "smallest_lateral_mm": ("tag off the optical axis, at best", "mm", 1.0),
     "smallest_along_error_mm": ("tag from the stand-off along the axis, at best", "mm", 1.0),
     "final_lateral_mm": ("tag off the optical axis, at the end", "mm", 1.0),

@@ -6,6 +6,8 @@ import geometry_msgs.msg
 import numpy as np
 import rospy
 import sensor_msgs.msg
+import tf2_msgs.msg
+import visualization_msgs.msg
 from prf_experiments.faults import catalogue, effects
 from scipy.spatial.transform import Rotation
 
@@ -18,6 +20,19 @@ def joint_states(stamp):
     message = sensor_msgs.msg.JointState(name=["a", "b"], position=[1.0, 2.0], velocity=[0.1, 0.2])
     message.header.stamp = rospy.Time(0, 0) + rospy.Duration(stamp // SECOND, stamp % SECOND)
     return message
+
+
+class Stamps(unittest.TestCase):
+    def test_messages_without_a_header_have_the_stamps_of_their_parts(self):
+        for message, field, kind in (
+                (tf2_msgs.msg.TFMessage(), "transforms", geometry_msgs.msg.TransformStamped),
+                (visualization_msgs.msg.MarkerArray(), "markers", visualization_msgs.msg.Marker)):
+            self.assertEqual(effects.stamp_of(message), 0)
+            setattr(message, field, [kind(), kind()])
+            later = effects.shifted(message, 3 * SECOND)
+            self.assertEqual(effects.stamp_of(later), 3 * SECOND)
+            self.assertEqual([part.header.stamp.secs for part in getattr(later, field)], [3, 3])
+            self.assertEqual(effects.stamp_of(message), 0)
 
 
 class Channel(unittest.TestCase):
