@@ -127,6 +127,9 @@ TEST_F(RobotFolder, RefusesTheClosedFormOfAnotherArm) {
   take("jaco_v60");
   replace("robot.urdf", "0.15675", "0.16675");
   expect_refusal({"kinematics = jaco2", "lengths or axes"});
+  take("jaco_v60");
+  replace("robot.urdf", "upper=\"5.46", "upper=\"5.36");
+  expect_refusal({"kinematics = jaco2", "the limits"});
 }
 
 TEST_F(RobotFolder, RefusesFilesThatAreNotThere) {
