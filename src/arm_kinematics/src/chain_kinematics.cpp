@@ -148,7 +148,7 @@ IkResult ChainKinematics::inverse(const Eigen::Isometry3d& pose, const JointVect
                                   std::uint64_t draws) const {
   prf_core::require_within("pose", pose.matrix(), prf_core::kMaxPosition, "m");
   require_joints(seed, "seed");
-  const IkResult unsolved{false, seed, error_between(forward(seed), pose, task())};
+  IkResult unsolved{false, seed, error_between(forward(seed), pose, task())};
   const Eigen::Vector3d first = chain_.joints.front().origin.translation();
   if (!((pose.translation() - first).norm() < reach_)) return unsolved;
 
