@@ -123,6 +123,7 @@ prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& 
   message.demonstration_switch = progress.demonstration.number;
   message.following_error = progress.following ? progress.following->position : -1;
   message.following_rotation = progress.following ? progress.following->rotation : -1;
+  message.holdable = progress.holdable.value_or(-1);
   return message;
 }
 static_assert(static_cast<int>(ExecutionState::kWaiting) == prf_msgs::ExecutionProgress::WAITING);
@@ -133,6 +134,7 @@ static_assert(static_cast<int>(ExecutionState::kTracking) == prf_msgs::Execution
 static_assert(static_cast<int>(ExecutionState::kRetract) == prf_msgs::ExecutionProgress::RETRACT);
 static_assert(static_cast<int>(ExecutionState::kDone) == prf_msgs::ExecutionProgress::DONE);
 static_assert(static_cast<int>(ExecutionState::kStopped) == prf_msgs::ExecutionProgress::STOPPED);
+static_assert(static_cast<int>(ExecutionState::kSearch) == prf_msgs::ExecutionProgress::SEARCH);
 
 trajectory_msgs::MultiDOFJointTrajectory to_message(const RobotNames& robot, Stamp stamp,
                                                     const std::optional<MovingPose>& setpoint) {

@@ -68,6 +68,8 @@ DecisionParams load_decision(prf_ros::PrivateParameters& values) {
   params.guards = load_guards(values);
   const auto arm = values.numbers("arm_limits", 2);
   params.arm = {arm[0], arm[1]};
+  const auto search = values.numbers("search", 3);
+  params.search = {checked_seconds("search[0]", search[0]), search[1], search[2]};
   return params;
 }
 

@@ -39,7 +39,47 @@ Event graded(Event event, bool lasts, bool may_be_lost, const AssessmentInput& i
   return event == Event::kOverdue && stays ? Event::kHazard : event;
 }
 
+// The predictor is heard and says that the target was not seen for too long.
+bool is_unseen(const GuardParams& params, const GuardInput& input) {
+  return input.measured && !input.forecast_silent &&
+         input.tick - *input.measured > params.reverse_after;
+}
+
 }  // namespace
+
+// What only the search decides; none: what the guards and the HMM say counts.
+std::optional<Assessment> Assessor::assess_sight(const GuardParams& params,
+                                                 const AssessmentInput& input,
+                                                 const std::optional<Violation>& violation) {
+  const bool searches = input.state == State::kSearch;
+  const Stamp tick = input.guards.tick;
+  if (!searches) {
+    searching_.reset();
+  } else if (!searching_) {
+    searching_ = tick;
+  }
+  if (violation && violation->event == Event::kGiveUp) return std::nullopt;
+  const bool unseen = is_unseen(params, input.guards);
+  if (searches && !unseen) {
+    return Assessment{Event::kClear, "the target is in sight again", violation.has_value(), ""};
+  }
+  if (!unseen || !(searches || (input.can_search && !is_resting(input.state)))) return std::nullopt;
+  const double age = to_seconds(tick - *input.guards.measured);
+  const double limit = to_seconds(input.search_time);
+  if (!searches) {
+    return Assessment{Event::kMissing, sentence("target unseen for ", age, " s: looks for it"),
+                      true, ""};
+  }
+  const Duration lasting = tick - *searching_;
+  if (lasting > input.search_time) {
+    return Assessment{Event::kLost, sentence("target not found within ", limit, " s"), true, ""};
+  }
+  return Assessment{
+      Event::kHazard,
+      sentence("target unseen for ", age, " s: looks ", input.search_width,
+               " rad around its last place, for ", to_seconds(lasting), " of ", limit, " s"),
+      true, ""};
+}
 
 Assessment Assessor::assess(const GuardParams& params, Duration dwell_time,
                             const BeliefTracker& belief, const AssessmentInput& input) {
@@ -52,6 +92,7 @@ Assessment Assessor::assess(const GuardParams& params, Duration dwell_time,
   if (is_rewinding(input.state)) rewound_ = tick;
   const bool may_be_lost = input.at_start && !(rewound_ && tick - *rewound_ <= params.stop_after);
   const bool may_leave = input.at_target || !is_resting(input.state);
+  if (auto sight = assess_sight(params, input, violation)) return *sight;
   if (violation) {
     const bool lasts = hazard_.time(tick) > params.reverse_after;
     return {graded(violation->event, lasts, may_be_lost, input), std::move(violation->reason), true,

@@ -8,13 +8,14 @@ namespace prf_decision {
 namespace {
 
 constexpr std::array<const char*, kExecutionStates> kExecutionStateNames{
-    "waiting", "forward", "pause", "reverse", "tracking", "retract", "done", "stopped"};
+    "waiting", "forward", "pause", "reverse", "tracking", "retract", "done", "stopped", "search"};
 constexpr std::array<const char*, kStates> kStateNames{
-    "idle",      "waiting",  "rewind waiting", "forward", "pause", "reverse",
-    "rewinding", "tracking", "retract",        "leaving", "done",  "stopped"};
+    "idle",     "waiting", "rewind waiting", "forward", "pause",   "reverse", "rewinding",
+    "tracking", "retract", "leaving",        "done",    "stopped", "search"};
 constexpr std::array<const char*, kEvents> kEventNames{
-    "calm", "unsteady", "unstable", "clear", "hazard",   "overdue",   "lost",  "give up",
-    "away", "time up",  "complete", "held",  "at start", "preempted", "begin", "begin away"};
+    "calm",    "unsteady", "unstable",  "clear", "hazard",    "overdue",
+    "missing", "lost",     "give up",   "away",  "time up",   "complete",
+    "held",    "at start", "preempted", "begin", "begin away"};
 
 std::string label(const Row& row) {
   return std::string(name(row.event)) + (row.condition == Condition::kDwelled ? " [dwelled]" : "");

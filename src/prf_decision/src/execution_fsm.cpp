@@ -9,7 +9,8 @@ namespace {
 // States whose reason is the newest violation or belief, not what led into them.
 bool waits(ExecutionState state) {
   return state == ExecutionState::kWaiting || state == ExecutionState::kPause ||
-         state == ExecutionState::kReverse || state == ExecutionState::kRetract;
+         state == ExecutionState::kReverse || state == ExecutionState::kRetract ||
+         state == ExecutionState::kSearch;
 }
 
 }  // namespace

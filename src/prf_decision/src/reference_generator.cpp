@@ -106,6 +106,7 @@ std::optional<MovingPose> ReferenceGenerator::reference(const ReferenceInput& in
   if (input.state == ExecutionState::kPause && is_relative_to_target()) {
     return hand_on_plan(Direction::kStand);
   }
+  if (input.look) return at_rest(*input.look);
   if (!tracks(input.state)) return std::nullopt;
   if (params_.adaptation == Adaptation::kOnce) return hand_at(*plan_, cursor_, Direction::kStand);
   if (input.violation || !input.forecast) return std::nullopt;
@@ -116,7 +117,8 @@ ReferenceResult ReferenceGenerator::step(const ReferenceInput& input) {
   move_cursor(input);
   follow_target(input);
   const std::optional<MovingPose> wanted = reference(input);
-  if (input.hand && (holds(input.state) || !setpoint_)) setpoint_ = input.hand;
+  const bool begins_anew = holds(input.state) || (input.look && !input.follows) || !setpoint_;
+  if (input.hand && begins_anew) setpoint_ = input.hand;
   ReferenceResult result;
   bool tracked = false;
   if (wanted) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/skill_executive.hpp"
 
+#include <cmath>
 #include <prf_core/require.hpp>
 #include <stdexcept>
 #include <utility>
@@ -37,6 +38,7 @@ void DecisionParams::validate() const {
   guards.validate();
   hmm.validate();
   arm.validate();
+  search.validate();
 }
 
 void SkillGoal::validate() const {
@@ -82,9 +84,11 @@ ExecutiveResult SkillExecutive::update(const Tick& tick) {
   end_unanswered_request(tick.stamp);
   if (goals_.next && !is_requesting()) begin_execution(tick.stamp);
   switch_demonstration();
+  const ExecutionState before = fsm_.published_state();
   const Assessment assessment =
       assessor_.assess(params_.guards, params_.dwell_time, belief_, assessment_input(tick));
   change_state(tick, assessment);
+  if (fsm_.published_state() != before) begin_search(tick);
   const std::optional<MovingPose> setpoint = move(tick, assessment.violation);
   last_tick_ = tick.stamp;
   last_setpoint_ = setpoint ? std::optional(setpoint->pose) : std::nullopt;
@@ -135,6 +139,37 @@ void SkillExecutive::switch_demonstration() {
   if (const auto planned = plans_.arrive()) reference_.replace_plan(*planned);
 }
 
+// From the start of the skill, whose hand stands there: it must not move toward a target that it
+// does not see.
+bool SkillExecutive::can_search(const Tick& tick) const {
+  const Trajectory* plan = reference_.plan();
+  const auto& last = belief_.forecast();
+  if (adapts_once() || params_.search.time == Duration{0} || !plan || !tick.hand) return false;
+  if (reference_.cursor() > 0 || following_.is_off() || !last || last->predictions.empty()) {
+    return false;
+  }
+  return reference_.is_on_skill(*tick.hand, {params_.guards.following.path.position, 2 * M_PI});
+}
+
+// Around where the target is forecast now; beyond the forecast's reach, where it ends. From where
+// the plan begins, or where the hand stands if that is farther away.
+void SkillExecutive::begin_search(const Tick& tick) {
+  if (fsm_.state() != State::kSearch) return;
+  const Trajectory& plan = *reference_.plan();
+  const auto last = predicted_target(*belief_.forecast(), tick.stamp + params_.reference.lead);
+  const auto distance = [&](const Pose& hand) {
+    return (hand.position - last.target.pose.position).norm();
+  };
+  Pose stand = plan.poses.front();
+  if (distance(*tick.hand) > distance(stand)) stand.position = tick.hand->position;
+  search_.begin(stand, plan.goal_in_target, last);
+}
+
+std::optional<Pose> SkillExecutive::look(const Tick& tick) {
+  if (fsm_.state() != State::kSearch) return std::nullopt;
+  return search_.look(params_.search, {tick.stamp, tick.hand, tick.joints, !following_.is_off()});
+}
+
 GuardInput SkillExecutive::guard_input(const Tick& tick) const {
   GuardInput input;
   input.tick = tick.stamp;
@@ -159,6 +194,9 @@ AssessmentInput SkillExecutive::assessment_input(const Tick& tick) const {
   input.at_start = reference_.cursor() == 0;
   input.at_target = reference_.is_at_target();
   input.away = tick.hand && !reference_.is_on_skill(*tick.hand, params_.guards.following.path);
+  input.can_search = can_search(tick);
+  input.search_time = params_.search.time;
+  input.search_width = search_.width();
   return input;
 }
 
@@ -220,9 +258,10 @@ void SkillExecutive::step_shadow(const Tick& tick) {
 }
 
 std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation) {
-  const ReferenceResult result = reference_.step(
-      {tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
-       followed_forecast(tick), violation, !following_.is_off(), following_.is_on_goal()});
+  const ReferenceResult result =
+      reference_.step({tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
+                       followed_forecast(tick), violation, !following_.is_off(),
+                       following_.is_on_goal(), look(tick)});
   if (result.at_start && !plans_.demonstration().is_returning()) {
     fsm_.fire(tick.stamp, Event::kAtStart, "", params_.dwell_time);
   }
@@ -234,6 +273,7 @@ Progress SkillExecutive::progress(const Tick& tick) const {
   Progress progress;
   progress.stamp = tick.stamp;
   progress.following = following_.error();
+  progress.holdable = shadow_.holdable();
   progress.state = fsm_.published_state();
   progress.cause = fsm_.cause();
   progress.reason = fsm_.reason();

@@ -33,6 +33,12 @@ Quaterniond turned(const Quaterniond& planned, const Vector3d& line_of_sight,
 
 }  // namespace
 
+Quaterniond looking_along(const Quaterniond& planned, const Vector3d& line_of_sight,
+                          const Pose& goal_in_target) {
+  constexpr double kExact = 1e-6;  // rad
+  return turned(planned, line_of_sight, goal_in_target, kExact);
+}
+
 MovingPose kept_in_view(const MovingPose& planned, const Vector3d& from, const MovingPose& target,
                         const Pose& goal_in_target, double view_angle) {
   if (!(view_angle < M_PI)) return planned;

@@ -91,6 +91,7 @@ inline DecisionParams usual_params() {
   parameters.guards = usual_guards();
   parameters.hmm = usual_hmm();
   parameters.arm = {0.95, 4.0};
+  parameters.search = {Duration{0}, 0.4, 1.2};
   return parameters;
 }
 

@@ -56,6 +56,7 @@ const std::map<std::pair<State, Event>, State> kDemanded{
     {{State::kDone, Event::kOverdue}, State::kLeaving},
     {{State::kStopped, Event::kUnstable}, State::kLeaving},
     {{State::kStopped, Event::kOverdue}, State::kLeaving},
+    {{State::kSearch, Event::kClear}, State::kRewinding},
 };
 
 bool rests(State state) {
@@ -63,12 +64,16 @@ bool rests(State state) {
          state == State::kStopped;
 }
 
+// While an execution is under way; at the target the hand is not at the start.
+bool may_be_at_start(State state) { return !rests(state) && state != State::kTracking; }
+
 State demanded(State state, Event event) {
   if (rests(state) && event == Event::kBegin) return State::kWaiting;
   if (rests(state) && event == Event::kBeginAway) return State::kRewindWaiting;
   const auto found = kDemanded.find({state, event});
   if (found != kDemanded.end()) return found->second;
   if (rests(state)) return state;
+  if (event == Event::kMissing) return may_be_at_start(state) ? State::kSearch : state;
   const bool waits = published(state) == ExecutionState::kWaiting;
   if (event == Event::kTimeUp || event == Event::kPreempted) return State::kStopped;
   const bool given_up = event == Event::kLost || event == Event::kGiveUp;
@@ -130,6 +135,23 @@ TEST(DecisionFsm, GetsNoBolderAsDangerGrows) {
   }
 }
 
+// A target out of sight never makes the hand go on, and only what sees it again ends the search
+// before the execution ends.
+TEST(DecisionFsm, SearchesFromEveryStateThatCanBeAtTheStartAndLeavesWhenItSees) {
+  for (const State state : kAllStates) {
+    const State next = step(state, Event::kMissing, true);
+    EXPECT_EQ(next != state, may_be_at_start(state) && state != State::kSearch) << name(state);
+    if (may_be_at_start(state)) {
+      EXPECT_LE(boldness(next), boldness(step(state, Event::kOverdue, true))) << name(state);
+    }
+  }
+  for (const Event event : kAllEvents) {
+    const State next = step(State::kSearch, event, true);
+    EXPECT_TRUE(next == State::kSearch || next == State::kStopped || event == Event::kClear)
+        << name(event);
+  }
+}
+
 // Whatever makes the hand pause outside makes it leave the target when it lasts: overdue.
 TEST(DecisionFsm, LeavesEveryStateAtTheTargetWhenAHazardLasts) {
   for (const State state : kAllStates) {
@@ -147,7 +169,8 @@ TEST(DecisionFsm, LeavesTheRewindingStatesOnlyAtTheStartOrToStop) {
     if (!is_rewinding(state)) continue;
     for (const Event event : kAllEvents) {
       const State next = step(state, event, true);
-      EXPECT_TRUE(is_rewinding(next) || next == State::kStopped || event == Event::kAtStart)
+      const bool at_start = event == Event::kAtStart || event == Event::kMissing;
+      EXPECT_TRUE(is_rewinding(next) || next == State::kStopped || at_start)
           << name(state) << " + " << name(event);
       if (event == Event::kAtStart) {
         EXPECT_EQ(published(next), published(state));

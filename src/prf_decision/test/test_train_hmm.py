@@ -132,16 +132,21 @@ class TrainHmm(unittest.TestCase):
     def test_learns_from_labels_and_writes_a_file_that_the_node_loads(self):
         out, figures = self.path("labelled.yaml"), self.path("labelled.json")
         done = run("train_hmm", self.bags[0], "--held-out", self.bags[1], "--out", out,
-                   "--json", figures)
+                   "--json", figures, "--beside", HMM, "--made-by", "a command")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("accuracy", done.stdout)
         model = prf_decision.load_hmm(out)
         with open(figures, encoding="utf-8") as file:
             written = json.load(file)
         self.assertEqual(model.transition.tolist(), written["transition"])
-        matrix = written["held_out_confusion"]
+        matrix = written["held_out"]["learnt"]["confusion"]
         self.assertEqual(sum(map(sum, matrix)), 1800)
-        self.assertGreater(sum(matrix[i][i] for i in range(3)), 0.9 * 1800)
+        right = sum(matrix[i][i] for i in range(3))
+        self.assertGreater(right, 0.9 * 1800)
+        self.assertAlmostEqual(written["held_out"]["learnt"]["accuracy"], right / 1800)
+        self.assertGreater(written["held_out"][HMM]["mean_recall"], 0.9)
+        with open(out, encoding="utf-8") as file:
+            self.assertIn("by\n#   a command\n", file.read())
 
     def test_learns_without_labels_nearly_the_same(self):
         out = self.path("unlabelled.yaml")

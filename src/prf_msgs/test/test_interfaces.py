@@ -132,7 +132,7 @@ class Enums(unittest.TestCase):
     def test_names_follow_the_values(self):
         self.assertEqual(enums.names(ExecutionProgress),
                          ["WAITING", "FORWARD", "PAUSE", "REVERSE", "TRACKING", "RETRACT", "DONE",
-                          "STOPPED"])
+                          "STOPPED", "SEARCH"])
         self.assertEqual(enums.names(TargetForecast),
                          ["NO_TARGET", "TRACKING", "COASTING", "LOST"])
         for message in (ControlStatus, SkillTrajectory, ExecuteSkillResult):

@@ -36,7 +36,7 @@ struct Side {
 
 std::string name_of(std::uint8_t state) {
   using prf_msgs::ExecutionProgress;
-  static const std::array<std::pair<std::uint8_t, const char*>, 8> kNames{
+  static const std::array<std::pair<std::uint8_t, const char*>, 9> kNames{
       {{ExecutionProgress::WAITING, "WAITING"},
        {ExecutionProgress::FORWARD, "FORWARD"},
        {ExecutionProgress::PAUSE, "PAUSE"},
@@ -44,7 +44,8 @@ std::string name_of(std::uint8_t state) {
        {ExecutionProgress::TRACKING, "TRACKING"},
        {ExecutionProgress::RETRACT, "RETRACT"},
        {ExecutionProgress::DONE, "DONE"},
-       {ExecutionProgress::STOPPED, "STOPPED"}}};
+       {ExecutionProgress::STOPPED, "STOPPED"},
+       {ExecutionProgress::SEARCH, "SEARCH"}}};
   const auto* found = std::find_if(kNames.begin(), kNames.end(),
                                    [&](const auto& entry) { return entry.first == state; });
   return found == kNames.end() ? "state " + std::to_string(state) : found->second;

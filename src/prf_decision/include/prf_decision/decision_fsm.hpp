@@ -9,7 +9,8 @@
 // rows act at once and whatever the HMM believes.
 //
 // The reaction is monotone: of the events calm, unsteady, hazard, unstable, overdue, in this order,
-// a later one never leads to a bolder state than an earlier one (boldness()). What goes back is not
+// a later one never leads to a bolder state than an earlier one (boldness()); nor does missing,
+// where it may come. What goes back is not
 // stopped by a hazard; so the way out needs neither forecast nor planner nor a goal in reach.
 #pragma once
 
@@ -28,9 +29,10 @@ enum class ExecutionState {
   kTracking,
   kRetract,
   kDone,
-  kStopped
+  kStopped,
+  kSearch
 };
-inline constexpr std::size_t kExecutionStates = 8;
+inline constexpr std::size_t kExecutionStates = 9;
 
 enum class State {
   kIdle,           // no goal yet, or the target was left after an execution
@@ -44,18 +46,22 @@ enum class State {
   kRetract,    // back from the target
   kLeaving,    // the same once the execution has ended; as far as the start
   kDone,
-  kStopped
+  kStopped,
+  kSearch  // at the start of the skill, for a target that is out of sight
 };
-inline constexpr std::size_t kStates = 12;
+inline constexpr std::size_t kStates = 13;
 
 enum class Event {
   kCalm,       // no violation, the HMM believes in Forward
   kUnsteady,   // no violation, the HMM believes in Pause
   kUnstable,   // the HMM believes in Reverse
-  kClear,      // no violation, whatever the HMM believes; instead of these three while rewinding
+  kClear,      // no violation, whatever the HMM believes; instead of these three while rewinding.
+               // While searching: the target is in sight again
   kHazard,     // a guard reports a violation
   kOverdue,    // a violation that has lasted so long that the arm shall go back
-  kLost,       // the last measurement is so old that the skill is given up; at its start only
+  kMissing,    // the target is out of sight and can be looked for; at the start of the skill only
+  kLost,       // the last measurement is so old, or the search so long, that the skill is given up;
+               // at its start only
   kGiveUp,     // the arm has not followed for so long that the skill is given up
   kAway,       // no violation, but the hand is not where the skill is to go on
   kTimeUp,     // time limit passed
@@ -66,7 +72,7 @@ enum class Event {
   kBegin,      // a goal begins where the cursor is
   kBeginAway   // a goal begins at the start; the cursor is elsewhere or on another demonstration
 };
-inline constexpr std::size_t kEvents = 16;
+inline constexpr std::size_t kEvents = 17;
 
 enum class Condition { kNone, kDwelled };
 
@@ -86,11 +92,13 @@ inline constexpr std::array kTable{
     Row{State::kWaiting,       Event::kCalm,      Condition::kNone,    State::kForward},
     Row{State::kWaiting,       Event::kAway,      Condition::kNone,    State::kRewinding},
     Row{State::kWaiting,       Event::kOverdue,   Condition::kNone,    State::kReverse},
+    Row{State::kWaiting,       Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kWaiting,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kWaiting,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
     Row{State::kRewindWaiting, Event::kClear,     Condition::kNone,    State::kRewinding},
     Row{State::kRewindWaiting, Event::kOverdue,   Condition::kNone,    State::kRewinding},
+    Row{State::kRewindWaiting, Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kRewindWaiting, Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kRewindWaiting, Event::kPreempted, Condition::kNone,    State::kStopped},
 
@@ -99,6 +107,7 @@ inline constexpr std::array kTable{
     Row{State::kForward,       Event::kHazard,    Condition::kNone,    State::kPause},
     Row{State::kForward,       Event::kOverdue,   Condition::kNone,    State::kReverse},
     Row{State::kForward,       Event::kComplete,  Condition::kNone,    State::kTracking},
+    Row{State::kForward,       Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kForward,       Event::kLost,      Condition::kNone,    State::kStopped},
     Row{State::kForward,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kForward,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
@@ -107,6 +116,7 @@ inline constexpr std::array kTable{
     Row{State::kPause,         Event::kCalm,      Condition::kDwelled, State::kForward},
     Row{State::kPause,         Event::kUnstable,  Condition::kDwelled, State::kReverse},
     Row{State::kPause,         Event::kOverdue,   Condition::kNone,    State::kReverse},
+    Row{State::kPause,         Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kPause,         Event::kLost,      Condition::kNone,    State::kStopped},
     Row{State::kPause,         Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kPause,         Event::kTimeUp,    Condition::kNone,    State::kStopped},
@@ -114,12 +124,14 @@ inline constexpr std::array kTable{
 
     Row{State::kReverse,       Event::kCalm,      Condition::kDwelled, State::kForward},
     Row{State::kReverse,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
+    Row{State::kReverse,       Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kReverse,       Event::kLost,      Condition::kNone,    State::kStopped},
     Row{State::kReverse,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kReverse,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
     Row{State::kReverse,       Event::kPreempted, Condition::kNone,    State::kStopped},
 
     Row{State::kRewinding,     Event::kAtStart,   Condition::kNone,    State::kReverse},
+    Row{State::kRewinding,     Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kRewinding,     Event::kLost,      Condition::kNone,    State::kStopped},
     Row{State::kRewinding,     Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kRewinding,     Event::kTimeUp,    Condition::kNone,    State::kStopped},
@@ -136,6 +148,7 @@ inline constexpr std::array kTable{
 
     Row{State::kRetract,       Event::kCalm,      Condition::kDwelled, State::kForward},
     Row{State::kRetract,       Event::kUnsteady,  Condition::kDwelled, State::kPause},
+    Row{State::kRetract,       Event::kMissing,   Condition::kNone,    State::kSearch},
     Row{State::kRetract,       Event::kLost,      Condition::kNone,    State::kStopped},
     Row{State::kRetract,       Event::kGiveUp,    Condition::kNone,    State::kStopped},
     Row{State::kRetract,       Event::kTimeUp,    Condition::kNone,    State::kStopped},
@@ -155,6 +168,12 @@ inline constexpr std::array kTable{
     Row{State::kStopped,       Event::kOverdue,   Condition::kNone,    State::kLeaving},
     Row{State::kStopped,       Event::kBegin,     Condition::kNone,    State::kWaiting},
     Row{State::kStopped,       Event::kBeginAway, Condition::kNone,    State::kRewindWaiting},
+
+    Row{State::kSearch,        Event::kClear,     Condition::kNone,    State::kRewinding},
+    Row{State::kSearch,        Event::kLost,      Condition::kNone,    State::kStopped},
+    Row{State::kSearch,        Event::kGiveUp,    Condition::kNone,    State::kStopped},
+    Row{State::kSearch,        Event::kTimeUp,    Condition::kNone,    State::kStopped},
+    Row{State::kSearch,        Event::kPreempted, Condition::kNone,    State::kStopped},
 };
 
 // Every state with the one that is published for it.
@@ -167,7 +186,8 @@ inline constexpr std::array<ExecutionState, kStates> kPublished{
     ExecutionState::kReverse,  // rewinding
     ExecutionState::kTracking, ExecutionState::kRetract,
     ExecutionState::kRetract,  // leaving
-    ExecutionState::kDone,     ExecutionState::kStopped};
+    ExecutionState::kDone,     ExecutionState::kStopped,
+    ExecutionState::kSearch};
 // clang-format on
 
 [[nodiscard]] constexpr ExecutionState published(State state) {
@@ -192,7 +212,7 @@ inline constexpr std::array<ExecutionState, kStates> kPublished{
 }
 
 // How near the target a state keeps the hand while a danger lasts: 2 goes or stays there, 1 stands,
-// 0 goes away from it, or has ended.
+// 0 goes away from it, stays at the start of the skill, or has ended.
 [[nodiscard]] constexpr int boldness(State state) {
   switch (state) {
     case State::kForward:
@@ -209,6 +229,7 @@ inline constexpr std::array<ExecutionState, kStates> kPublished{
     case State::kRewinding:
     case State::kRetract:
     case State::kLeaving:
+    case State::kSearch:
       break;
   }
   return 0;

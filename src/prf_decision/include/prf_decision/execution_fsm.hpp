@@ -21,8 +21,8 @@ class ExecutionFsm {
   // former ones stay.
   bool fire(Stamp stamp, Event event, const std::string& reason, Duration dwell_time);
 
-  // Replaces the reason in states that wait for something (waiting, pause, reverse, retract),
-  // unless `reason` is empty.
+  // Replaces the reason in states that wait for something (waiting, pause, reverse, retract,
+  // search), unless `reason` is empty.
   void explain(const std::string& reason);
 
   [[nodiscard]] State state() const { return state_; }

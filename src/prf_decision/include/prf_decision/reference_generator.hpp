@@ -10,6 +10,8 @@
 //   tracking, done               stands    the demonstrated pose relative to the target, predicted
 //                                          for `lead` after the tick; none during a violation;
 //                                          adapted once: the plan's last pose
+//   search                       stands    where the camera looks; the set-point begins where the
+//                                          hand is measured while that does not follow
 //   waiting, stopped             stands    none; the set-point begins where the hand is measured
 // On its way the hand keeps its view of the target (view_keeper.hpp), but when adapted once.
 // Without a reference the set-point stands still; in waiting and stopped there is no set-point,
@@ -55,6 +57,7 @@ struct ReferenceInput {
   bool violation = false;            // a guard reports one: the target is not tracked
   bool follows = true;               // the arm does
   bool hand_on_goal = false;         // within goal_tolerance of the set-point before
+  std::optional<Pose> look = {};     // of the hand that searches; none: it does not
 };
 
 struct ReferenceResult {

@@ -15,6 +15,7 @@
 #include "prf_decision/guards.hpp"
 #include "prf_decision/plan_receiver.hpp"
 #include "prf_decision/reference_generator.hpp"
+#include "prf_decision/target_search.hpp"
 
 namespace prf_decision {
 
@@ -27,6 +28,7 @@ struct DecisionParams {
   GuardParams guards;
   HmmParams hmm;
   ArmLimits arm;
+  SearchParams search;
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
@@ -55,6 +57,7 @@ struct Progress {
   Duration time_to_go{0};
   std::optional<GoalDistance> goal_distance;  // of the measured hand, to where the skill ends now
   std::optional<PoseError> following;         // measured hand from its set-point; none: it holds
+  std::optional<double> holdable;             // of the target's motion, m; shadow_arm.hpp
   NamedDemonstration demonstration;           // that the planner shall follow
   std::string refusal;  // why the requested demonstration is not switched to, at this tick
 };
@@ -108,15 +111,18 @@ class SkillExecutive {
     return params_.reference.adaptation == Adaptation::kOnce;
   }
   [[nodiscard]] bool moves_arm() const;
+  [[nodiscard]] bool can_search(const Tick& tick) const;
   void receive_plan(const PlanResult& result);
   void end_unanswered_request(Stamp stamp);
   void begin_execution(Stamp stamp);
   void switch_demonstration();
+  void begin_search(const Tick& tick);
   [[nodiscard]] GuardInput guard_input(const Tick& tick) const;
   [[nodiscard]] AssessmentInput assessment_input(const Tick& tick) const;
   void change_state(const Tick& tick, const Assessment& assessment);
   [[nodiscard]] const TargetForecast* followed_forecast(const Tick& tick) const;
   [[nodiscard]] std::optional<MovingPose> move(const Tick& tick, bool violation);
+  [[nodiscard]] std::optional<Pose> look(const Tick& tick);
   void step_shadow(const Tick& tick);
   [[nodiscard]] Progress progress(const Tick& tick) const;
 
@@ -128,6 +134,7 @@ class SkillExecutive {
   Assessor assessor_;
   ExecutionFsm fsm_;
   ReferenceGenerator reference_;
+  TargetSearch search_;
   Goals goals_;
   std::optional<Stamp> last_tick_;
   std::optional<Pose> last_setpoint_;  // of that tick; none: the arm held

@@ -20,4 +20,9 @@ namespace prf_decision {
                                       const MovingPose& target, const Pose& goal_in_target,
                                       double view_angle);
 
+// `planned` turned so that the camera looks along `line_of_sight` (m, to a target).
+[[nodiscard]] Eigen::Quaterniond looking_along(const Eigen::Quaterniond& planned,
+                                               const Eigen::Vector3d& line_of_sight,
+                                               const Pose& goal_in_target);
+
 }  // namespace prf_decision

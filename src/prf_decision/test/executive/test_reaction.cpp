@@ -27,6 +27,7 @@ int boldness_of(const Progress& progress) {
       return progress.cursor > 0 ? 1 : 0;
     case ExecutionState::kReverse:
     case ExecutionState::kRetract:
+    case ExecutionState::kSearch:
       break;
   }
   return 0;

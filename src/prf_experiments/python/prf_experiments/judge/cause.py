@@ -109,7 +109,8 @@ def _waits(data):
     progress = data.progress
     told = []
     for state, words in ((ExecutionProgress.WAITING, "waited"), (ExecutionProgress.PAUSE, "stood still"),
-                         (ExecutionProgress.REVERSE, "went back")):
+                         (ExecutionProgress.REVERSE, "went back"),
+                         (ExecutionProgress.SEARCH, "searched the target")):
         rows = np.flatnonzero(progress.states == state)
         seconds = 1e-9 * data.tick * len(rows)
         if seconds >= 1.0:
