@@ -2,7 +2,7 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-ROOMS = ["export", "faults", "judge", "record", "report", "robot", "run", "soak", "sweep", "teach"]
+ROOMS = ["export", "faults", "judge", "record", "report", "rivals", "robot", "run", "soak", "sweep", "teach"]
 
 setup(**generate_distutils_setup(
     package_data={"prf_experiments.report": ["templates/*"]},

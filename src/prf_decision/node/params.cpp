@@ -41,6 +41,7 @@ GuardParams load_guards(prf_ros::PrivateParameters& values) {
   guards.max_reach = values.number("max_reach");
   guards.workspace_radius = values.number("workspace_radius");
   guards.max_target_speed = values.number("max_target_speed");
+  guards.clearance = values.number("clearance");
   guards.following = load_following(values);
   return guards;
 }

@@ -40,7 +40,7 @@ Event graded(Event event, bool lasts, bool may_be_lost, const AssessmentInput& i
 }
 
 // The predictor is heard and says that the target was not seen for too long.
-bool is_unseen(const GuardParams& params, const GuardInput& input) {
+bool is_out_of_sight(const GuardParams& params, const GuardInput& input) {
   return input.measured && !input.forecast_silent &&
          input.tick - *input.measured > params.reverse_after;
 }
@@ -59,16 +59,17 @@ std::optional<Assessment> Assessor::assess_sight(const GuardParams& params,
     searching_ = tick;
   }
   if (violation && violation->event == Event::kGiveUp) return std::nullopt;
-  const bool unseen = is_unseen(params, input.guards);
-  if (searches && !unseen) {
+  const bool out_of_sight = is_out_of_sight(params, input.guards);
+  if (searches && !out_of_sight) {
     return Assessment{Event::kClear, "the target is in sight again", violation.has_value(), ""};
   }
-  if (!unseen || !(searches || (input.can_search && !is_resting(input.state)))) return std::nullopt;
+  if (!out_of_sight || !(searches || (input.can_search && !is_resting(input.state))))
+    return std::nullopt;
   const double age = to_seconds(tick - *input.guards.measured);
   const double limit = to_seconds(input.search_time);
   if (!searches) {
-    return Assessment{Event::kMissing, sentence("target unseen for ", age, " s: looks for it"),
-                      true, ""};
+    return Assessment{Event::kMissing,
+                      sentence("target out of sight for ", age, " s: looks for it"), true, ""};
   }
   const Duration lasting = tick - *searching_;
   if (lasting > input.search_time) {
@@ -76,7 +77,7 @@ std::optional<Assessment> Assessor::assess_sight(const GuardParams& params,
   }
   return Assessment{
       Event::kHazard,
-      sentence("target unseen for ", age, " s: looks ", input.search_width,
+      sentence("target out of sight for ", age, " s: looks ", input.search_width,
                " rad around its last place, for ", to_seconds(lasting), " of ", limit, " s"),
       true, ""};
 }

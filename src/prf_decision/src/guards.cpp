@@ -36,6 +36,7 @@ void GuardParams::validate() const {
   require_between("max_reach", max_reach, 0.1, 2, "m");
   require_between("workspace_radius", workspace_radius, 0.1, 20, "m");
   require_between("max_target_speed", max_target_speed, 0.01, 10, "m/s");
+  require_between("clearance", clearance, 1e-3, 1, "m");
   following.validate();
 }
 
@@ -154,6 +155,12 @@ std::optional<Violation> check_goal(const GuardParams& params, const GuardInput&
     return std::nullopt;
   }
   return hazard("no joint position within limits gives the goal");
+}
+
+std::optional<Violation> check_ability(const GuardParams& params, const GuardInput& input) {
+  if (!input.holdable || *input.holdable <= params.clearance) return std::nullopt;
+  return hazard(sentence("this arm can hold ", 1e3 * *input.holdable, " mm here, the task needs ",
+                         1e3 * params.clearance, " mm"));
 }
 
 std::optional<Violation> check_guards(const GuardParams& params, const GuardInput& input,

@@ -183,6 +183,7 @@ GuardInput SkillExecutive::guard_input(const Tick& tick) const {
   input.plan = plans_.demonstration().is_returning() ? plans_.next_plan() : reference_.plan();
   input.no_plan = plans_.no_plan();
   input.planner_silent = tick.planner_silent;
+  if (reference_.cursor() == 0) input.holdable = shadow_.holdable();
   return input;
 }
 

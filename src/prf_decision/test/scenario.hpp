@@ -74,6 +74,7 @@ inline GuardParams usual_guards() {
   guards.max_reach = 0.95;
   guards.workspace_radius = 2.0;
   guards.max_target_speed = 1.5;
+  guards.clearance = 0.04;
   guards.following.path = {0.10, 0.35};
   guards.following.goal = {0.05, 0.20};
   guards.following.limits = {from_seconds(0.1), from_seconds(1.0), from_seconds(5.0)};

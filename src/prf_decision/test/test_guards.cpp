@@ -41,6 +41,18 @@ TEST(Guards, GradeTheAgeOfTheLastMeasurement) {
   EXPECT_EQ(age_violation(0.62)->reason, "no measurement of the target for 0.62 s, limit 0.30 s");
 }
 
+TEST(Guards, WaitForAMotionThatTheArmCanHold) {
+  const auto violation = [](std::optional<double> holdable) {
+    GuardInput input;
+    input.holdable = holdable;
+    return check_ability(usual_guards(), input).has_value();
+  };
+  EXPECT_FALSE(violation(std::nullopt));
+  EXPECT_FALSE(violation(0.04));
+  EXPECT_TRUE(violation(0.0401));
+  EXPECT_TRUE(violation(std::nan("")));
+}
+
 std::string forecast_violation(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
   const TargetForecast forecast = forecast_of(kNow, position, velocity);
   GuardInput input = input_with(forecast);
@@ -113,14 +125,17 @@ TEST(Guards, RefuseAGoalOutOfReach) {
 TEST(Guards, AreTriedInTheOrderOfTheirTable) {
   const TargetForecast far = forecast_of(kNow, {5, 0, 0.5}, {0, 0, 0});
   const TargetForecast lost = forecast_of(kNow, {5, 0, 0.5}, {0, 0, 0}, TargetStatus::kLost);
-  const TargetForecast near = forecast_of(kNow, {1.6, 0, 0.5}, {0, 0, 0});
+  const TargetForecast beyond = forecast_of(kNow, {1.6, 0, 0.5}, {0, 0, 0});
+  const TargetForecast near = forecast_of(kNow, {1.0, 0, 0.5}, {0, 0, 0});
   const Trajectory plan = straight_skill();
   GuardInput input = input_with(near);
   input.plan = &plan;
+  input.holdable = 0.05;
   FollowingMonitor off;
   off.update(usual_guards().following, {kNow - from_seconds(0.2), {}, {}, {}, false});
   const std::vector<std::pair<std::string, std::function<void(GuardInput&)>>> spoilt{
-      {"goal 1.22 m", [](auto&) {}},
+      {"this arm can hold 50.00 mm here, the task needs 40.00 mm", [](auto&) {}},
+      {"goal 1.22 m", [&](auto& i) { i.forecast = &beyond; }},
       {"planner has no plan: x", [](auto& i) { i.no_plan = "x"; }},
       {"planner silent", [](auto& i) { i.planner_silent = true; }},
       {"no plan yet: x", [](auto& i) { i.plan = nullptr; }},
@@ -172,6 +187,7 @@ TEST(Guards, RefuseTheirOwnParametersByName) {
       {"shoulder", [](auto& g) { g.shoulder.x() = NAN; }},
       {"max_reach", [](auto& g) { g.max_reach = 0; }},
       {"workspace_radius", [](auto& g) { g.workspace_radius = INFINITY; }},
+      {"clearance", [](auto& g) { g.clearance = 0; }},
       {"max_target_speed", [](auto& g) { g.max_target_speed = NAN; }},
       {"max_reach", [](auto& g) { g.max_reach = 1e308; }},
       {"workspace_radius", [](auto& g) { g.workspace_radius = 5e-324; }},

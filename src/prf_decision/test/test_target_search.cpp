@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "prf_decision/target_search.hpp"
+#include "prf_decision/view/target_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 //   lost with the hand away from the start of the skill       overdue: the way out comes first
 //   lost on the way to the start before an execution, or      overdue: the target may be in view
 //   less than coast_limits[2] after it                        again from there
-//   unseen for coast_limits[1] where it can be looked for     missing
+//   out of sight for coast_limits[1] where it can be looked for     missing
 //   in sight again while searching, whatever else is wrong    clear
 //   search[0] of searching                                    lost
 //   overdue while the execution waits at the start            hazard: there is no way to go back

@@ -25,6 +25,7 @@ struct GuardParams {
   double max_reach = 0;                                // hand from the shoulder, m
   double workspace_radius = 0;                         // target from the shoulder, m
   double max_target_speed = 0;                         // m/s
+  double clearance = 0;                                // of the task, m
   FollowingParams following;
 
   // std::invalid_argument names the parameter, its value and the bound.
@@ -43,6 +44,7 @@ struct GuardInput {
   const Trajectory* plan{};            // of the demonstration to execute
   std::optional<std::string> no_plan;  // reason, when the planner's last result has no plan
   bool planner_silent = false;         // no result of the planner for longer than max_wait
+  std::optional<double> holdable;      // ShadowArm::holdable() at the start of the skill, m
 };
 
 struct Violation {
@@ -55,7 +57,7 @@ using Check = std::optional<Violation>(const GuardParams& params, const GuardInp
 // Each check may rely on the ones before it in the table.
 Check check_has_goal, check_ticks, check_following, check_measured, check_age, check_forecast_heard,
     check_status, check_forecast, check_has_plan, check_planner_heard, check_plan_result,
-    check_goal;
+    check_goal, check_ability;
 
 struct Guard {
   const char* name;
@@ -80,6 +82,7 @@ inline constexpr std::array kGuards{
     Guard{"planner heard", false, "`skill/trajectory` silent for longer than `max_wait`",                  "hazard", check_planner_heard},
     Guard{"plan result",   false, "the planner's last result has no plan",                                 "hazard", check_plan_result},
     Guard{"reach",         false, "goal beyond `max_reach`, or no joint position within limits gives it",  "hazard", check_goal},
+    Guard{"ability",       false, "at the start of the skill: what the arm can hold here is beyond `clearance`", "hazard", check_ability},
 };
 // clang-format on
 

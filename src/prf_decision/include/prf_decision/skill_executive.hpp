@@ -15,7 +15,7 @@
 #include "prf_decision/guards.hpp"
 #include "prf_decision/plan_receiver.hpp"
 #include "prf_decision/reference_generator.hpp"
-#include "prf_decision/target_search.hpp"
+#include "prf_decision/view/target_search.hpp"
 
 namespace prf_decision {
 

@@ -24,8 +24,8 @@ bool sees(const Pose& hand, const Eigen::Vector3d& target) {
   return (hand.orientation * Eigen::Vector3d::UnitX()).dot(sight) > std::cos(kView);
 }
 
-// A world whose target is seen only where the camera looks. Unseen, the forecast stays where it
-// was.
+// A world whose target is seen only where the camera looks. Out of sight, the forecast stays where
+// it was.
 struct Hiding {
   Hiding() : world(searching_params()) { world.checks_steps = false; }
 

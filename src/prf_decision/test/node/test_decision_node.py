@@ -95,6 +95,23 @@ class DecisionNode(unittest.TestCase):
         self.assertEqual(world.progress[-1].state, ExecutionProgress.TRACKING)
         self.check_no_jump(world.setpoints)
 
+    # Fault 17: target covered for long -> the camera looks around from the start, and goes on when it sees it
+    def test_searches_a_target_that_is_out_of_sight_and_goes_on_when_it_is_seen(self):
+        _, world = self.begin_run()
+        world.target_hides = 500
+        self.assertTrue(world.play(0, 6000))
+        searching = [i for i, p in enumerate(world.progress) if p.state == ExecutionProgress.SEARCH]
+        self.assertGreater(len(searching), 300)
+        self.assertIn("looks 0.40 rad around its last place", world.progress[searching[-1]].reason)
+        hands = [world.setpoints[i].points[0].transforms[0] for i in searching[30:]]
+        self.assertLess(max(abs(hand.translation.x - 0.3) for hand in hands), 1e-3)
+        self.assertGreater(max(abs(hand.rotation.y) + abs(hand.rotation.z) for hand in hands), 0.15)
+        world.target_hides = float("inf")
+        self.assertTrue(world.play(6000, 8000))
+        later = [p.state for p in world.progress[600:]]
+        self.assertIn(ExecutionProgress.REVERSE, later)
+        self.assertEqual(later[-1], ExecutionProgress.TRACKING)
+
     def check_no_jump(self, setpoints):
         path = [s.points[0].transforms[0].translation.x for s in setpoints if s.points]
         # The skill runs at 0.3 m/s and a gap closes at 0.2 m/s on top of it.

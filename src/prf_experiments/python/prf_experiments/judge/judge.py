@@ -267,6 +267,7 @@ def judge(recording: Recording) -> Verdict:
         "execution_lateral_deviation_mm": execution_deviation,
         "tracking_lateral_mean_mm": tracking_mean,
         "tracking_lateral_deviation_mm": tracking_deviation,
+        "holdable_mm": _holdable(recording),
         **_following(recording),
         **smoothness.figures(recording),
         "forecast_horizon_s": horizon,
@@ -277,6 +278,11 @@ def judge(recording: Recording) -> Verdict:
         "final_state": STATES[recording.progress.states[-1]],
     }
     return Verdict(verdict, inspected is not None, "; ".join(reasons), figures)
+
+
+def _holdable(recording):
+    known = recording.progress.holdable[np.isfinite(recording.progress.holdable)]
+    return 1e3 * float(known.max()) if len(known) else None
 
 
 def harm(recording: Recording) -> list[str]:

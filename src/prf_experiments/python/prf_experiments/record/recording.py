@@ -45,6 +45,8 @@ class Progress:
     reasons: list
     # (n, 2) measured hand from the set-point, m and rad; NaN where it is unknown or was not told
     following: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
+    # (n,) m, what the arm can hold of the target's motion; NaN where it is unknown or was not told
+    holdable: np.ndarray = field(default_factory=lambda: np.empty(0))
 
 
 @dataclass
@@ -230,7 +232,8 @@ class _Reader:
             "execution/progress": lambda message: (
                 message.state, message.cursor, message.reason,
                 getattr(message, "following_error", -1.0),  # not in older bags
-                getattr(message, "following_rotation", -1.0), *message.posterior),
+                getattr(message, "following_rotation", -1.0), getattr(message, "holdable", -1.0),
+                *message.posterior),
             "control/status": lambda message: (message.code, message.reason,
                                                message.position_error,
                                                message.orientation_error),
@@ -314,13 +317,15 @@ class _Reader:
         return Poses(self.stamps(topic), values)
 
     def progress(self):
-        states, cursors, reasons, metres, radians, *posteriors = zip(
+        states, cursors, reasons, metres, radians, holdable, *posteriors = zip(
             *self._rows["execution/progress"])
         following = np.column_stack([metres, radians]).astype(float)
         following[following < 0.0] = np.nan
+        held = np.array(holdable, dtype=float)
+        held[held < 0.0] = np.nan
         return Progress(self.stamps("execution/progress"), np.array(states, dtype=int),
                         np.array(posteriors, dtype=float).T, np.array(cursors, dtype=float),
-                        list(reasons), following)
+                        list(reasons), following, held)
 
     def control(self):
         codes, reasons, positions, orientations = zip(*self._rows["control/status"])

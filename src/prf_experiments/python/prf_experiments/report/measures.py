@@ -23,6 +23,7 @@ WORDS: dict[str, tuple[str, str, float]] = {
     "execution_lateral_deviation_mm": ("the same, standard deviation", "mm", 1.0),
     "tracking_lateral_mean_mm": ("tag off the optical axis while the target is tracked, mean", "mm", 1.0),
     "tracking_lateral_deviation_mm": ("the same, standard deviation", "mm", 1.0),
+    "holdable_mm": ("what this arm can hold of the target's motion: 95 % of 4 s, at worst", "mm", 1.0),
     "following_error_mean_mm": ("hand from its set-point while it moves, mean", "mm", 1.0),
     "following_error_largest_mm": ("the same, largest", "mm", 1.0),
     "joint_acceleration_rms_rad_s2": ("acceleration of the commanded joints, rms", "rad/s²", 1.0),

@@ -65,6 +65,10 @@ def driver_period(driver: str) -> float:
         return float(yaml.safe_load(stream)["driver"]["period"])
 
 
+# In place of a planner and of the decision: rivals/pose_servo.py.
+SERVOS = ("servo", "servo_fast")
+
+
 def planner_names() -> list[str]:
     """Those that the factory of elte_planner makes, in its order."""
     factory = os.path.join(_SOURCES, "elte_planner", "src", "planners", "skill_planner.cpp")

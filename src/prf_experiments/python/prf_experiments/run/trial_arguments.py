@@ -65,8 +65,9 @@ NAMED = {
                        f"{names.of_worlds('highest_motion_level')[0]}, 1 as fast as heavy; with "
                        "scenario:=cart none"),
     "gait": Argument("stand", **choice(*names.of_worlds("gaits")), meaning="what the legs do"),
-    "planner": Argument("elte", **choice(*names.planner_names()),
-                        meaning="how the skill is adapted"),
+    "planner": Argument("elte", **choice(*names.planner_names(), *names.SERVOS),
+                        meaning="how the skill is adapted; servo, servo_fast: visual servoing in place of "
+                        "skill and decision"),
     "framework": Argument(True, **boolean(),
                           meaning="false: adapt once, to the first forecast, execute blindly"),
     "seed": Argument(1, **integer(0, 2**31 - 1), meaning="of every random draw"),

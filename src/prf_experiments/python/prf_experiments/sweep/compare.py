@@ -6,7 +6,7 @@ from prf_experiments.sweep import statistics
 from prf_experiments.sweep.study import Study, cell, letters, values, verdict_links
 from prf_experiments.sweep.table import aligned, grouped
 
-AXES = {"motion": ["none", "light", "heavy"], "planner": ["elte", "dmp", "lte", "elastic_map"]}
+AXES = {"motion": ["none", "light", "heavy"], "planner": ["elte", "dmp", "lte", "elastic_map", "servo"]}
 FIXED = {"gait": "step"}
 MEASURES = {"execution_lateral_mean_mm": "execution, mean",
             "execution_lateral_deviation_mm": "execution, sd",

@@ -18,10 +18,11 @@ from prf_experiments.sweep.table import aligned, grouped, number, percent, rate
 CONTACT, HARD_CONTACT = 1.0, 50.0  # N
 # What is compared, by the arguments that make it. Those that this version does not know are left out.
 VARIANTS: dict[str, dict[str, Any]] = {
-    "off": {"framework": False},
-    "forward": {"framework": True, "decision": "forward"},
-    "hmm paper": {"framework": True, "decision": "hmm", "hmm": "paper"},
-    "hmm trained": {"framework": True, "decision": "hmm", "hmm": "trained"}}
+    "off": {"framework": False, "planner": "elte"},
+    "forward": {"framework": True, "planner": "elte", "decision": "forward"},
+    "hmm paper": {"framework": True, "planner": "elte", "decision": "hmm", "hmm": "paper"},
+    "hmm trained": {"framework": True, "planner": "elte", "decision": "hmm", "hmm": "trained"},
+    "servo": {"framework": True, "planner": "servo"}}
 CAUSES = ("fall", "view", "forecast", "arm", "plan", "decision", "contact")
 
 

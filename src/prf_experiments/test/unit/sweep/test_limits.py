@@ -38,7 +38,7 @@ class Limits(unittest.TestCase):
                 options(*words)
 
     def test_counts_successes_contacts_and_causes_and_finds_the_breaking_level(self):
-        off, forward = {"framework": False}, {"framework": True, "decision": "forward"}
+        off, forward = limits.variants()["off"], limits.variants()["forward"]
         results = [trial(1.0, off, "S"), trial(1.0, off, "F", "...; lost in the forecast: ...", seed=2),
                    trial(2.0, off, "F", "the tag was never seen"), trial(2.0, off, "F", fallen_s=8.0, seed=2),
                    trial(1.0, forward, "S"), trial(2.0, forward, "P", reached_s=9.0, largest_contact_n=60.0)]
@@ -53,6 +53,24 @@ class Limits(unittest.TestCase):
         self.assertIn("heavy   2      forward", limits.text(summary))
         self.assertEqual([section.title for section in limits.sections(summary, results, ".")],
                          ["heavy", "Each test"])
+
+    def test_breaks_at_the_lowest_level_with_less_than_half_of_the_valid_trials(self):
+        made = limits.variants()["forward"]
+
+        def breaks_at(verdicts):
+            results = [trial(level, made, verdict, seed=seed) for level, letters in verdicts
+                       for seed, verdict in enumerate(letters)]
+            [row] = limits.summarise(results)["breaking_levels"]
+            return row["breaks_at"]
+        self.assertIsNone(breaks_at([(1.0, "SF"), (2.0, "SSFF")]))
+        self.assertEqual(breaks_at([(1.0, "SF"), (2.0, "SFF")]), 2.0)
+        self.assertEqual(breaks_at([(3.0, "F"), (2.0, "SFF"), (1.0, "S")]), 2.0)
+        self.assertEqual(breaks_at([(1.0, ["INVALID"]), (2.0, "F")]), 2.0)
+
+    def test_servo_is_a_variant_of_its_own(self):
+        for name, made in limits.variants().items():
+            self.assertEqual(limits.variant({**limits.world("heavy", 1.0), "planner": "elte", "decision": "hmm",
+                                             "hmm": "trained", **made}), name)
 
 
 if __name__ == "__main__":
