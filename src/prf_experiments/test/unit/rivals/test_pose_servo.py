@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import unittest
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from prf_experiments.rivals.pose_servo import PoseServo, ServoParams
@@ -53,9 +54,11 @@ class Servo(unittest.TestCase):
 
     def test_what_is_no_gain_is_refused_by_name(self):
         PARAMS.validate()
+        wrong: dict[str, Any]
         for name, value in (("linear_gains", (1.0, 2.0)), ("fastest", (np.nan, 1.0)), ("hold_time", -1.0)):
+            wrong = {name: value}
             with self.assertRaisesRegex(ValueError, name):
-                replace(PARAMS, **{name: value}).validate()
+                replace(PARAMS, **wrong).validate()
 
 
 if __name__ == "__main__":
