@@ -128,13 +128,20 @@ inline ArmCommand to_arm_command(const trajectory_msgs::JointTrajectory& message
   }
   if (message.points.size() != 1 || message.points[0].positions.size() != 7 ||
       message.points[0].velocities.size() != 7) {
-    throw std::invalid_argument("must have one point of 7 positions and 7 velocities");
+    const std::size_t points = message.points.size();
+    const std::string found =
+        points != 1 ? std::to_string(points) + " points"
+                    : std::to_string(message.points[0].positions.size()) + " positions and " +
+                          std::to_string(message.points[0].velocities.size()) + " velocities";
+    throw std::invalid_argument(found + ", must be one point of 7 positions and 7 velocities");
   }
   ArmCommand command;
   for (int i = 0; i < 7; ++i) {
     const std::string name = "j2s7s300_joint_" + std::to_string(i + 1);
     const auto found = std::find(message.joint_names.begin(), message.joint_names.end(), name);
-    if (found == message.joint_names.end()) throw std::invalid_argument(name + " is not named");
+    if (found == message.joint_names.end()) {
+      throw std::invalid_argument(name + " is not among joint_names, all 7 must be");
+    }
     const auto index = static_cast<std::size_t>(found - message.joint_names.begin());
     command.positions[i] = message.points[0].positions[index];
     command.velocities[i] = message.points[0].velocities[index];

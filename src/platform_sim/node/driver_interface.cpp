@@ -70,7 +70,8 @@ DriverPoint read_kortex(const prf_ros::kortex::BaseJointSpeeds& message) {
   require_count(message.joint_speeds.size());
   DriverPoint point;
   for (const prf_ros::kortex::JointSpeed& speed : message.joint_speeds) {
-    if (speed.joint_identifier >= 7) throw std::invalid_argument("joint_identifier must be 0 to 6");
+    prf_core::require(speed.joint_identifier < 7, "joint_identifier", speed.joint_identifier,
+                      "0 to 6");
     point.velocities[speed.joint_identifier] = static_cast<double>(speed.value);
   }
   return point;

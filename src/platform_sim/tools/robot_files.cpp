@@ -28,7 +28,9 @@ ArmVector configured_arm_start() {
   const std::string path = ros::package::getPath("platform_sim") + "/config/platform_sim.yaml";
   try {
     const auto values = YAML::LoadFile(path)["initial_positions"].as<std::vector<double>>();
-    if (values.size() != 7) throw std::runtime_error("must be 7 numbers");
+    if (values.size() != 7) {
+      throw std::runtime_error(std::to_string(values.size()) + " numbers, must be 7");
+    }
     return Eigen::Map<const ArmVector>(values.data());
   } catch (const std::exception& error) {
     throw std::runtime_error("initial_positions of " + path + ": " + error.what());

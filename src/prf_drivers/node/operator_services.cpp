@@ -63,13 +63,16 @@ void OperatorServices::tell(int code) {
 
 std::string OperatorServices::call_driver(bool stop) const {
   const std::string& name = stop ? driver_.stop_service : driver_.start_service;
-  if (name.empty()) return "the driver has no service for it";
+  if (name.empty()) return "the driver has no service for it, its power stays as it is";
   const bool is_kinova = driver_.speaks == Speaks::kKinova;
   const bool done =
       is_kinova && stop ? call<prf_ros::kinova::StopRequest, prf_ros::kinova::StopResponse>(name)
       : is_kinova       ? call<prf_ros::kinova::StartRequest, prf_ros::kinova::StartResponse>(name)
                         : call<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(name);
-  return done ? name + " called" : name + " FAILED";
+  return done
+             ? name + " called"
+             : name +
+                   " FAILED: it is not offered or refused; use the emergency stop if the arm moves";
 }
 
 // The arm is held first: the driver's service may take its time, or not be there.

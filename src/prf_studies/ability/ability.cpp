@@ -57,7 +57,11 @@ Followed follow(const ObservedRun& run, const AbilityParams& params) {
   params.validate();
   const auto& forecasts = run.forecasts;
   const auto first = std::find_if(forecasts.begin(), forecasts.end(), is_usable);
-  if (first == forecasts.end()) throw std::invalid_argument("there is no forecast of a target");
+  if (first == forecasts.end()) {
+    throw std::invalid_argument("of " + std::to_string(forecasts.size()) +
+                                " forecasts none has a target, must at least one: "
+                                "is the tag seen, and long enough for the predictor?");
+  }
   const Duration latency = from_seconds(params.latency);
   const Duration lead = from_seconds(params.lead);
   prf_decision::ShadowArm shadow(params.arm);
@@ -78,7 +82,9 @@ Followed follow(const ObservedRun& run, const AbilityParams& params) {
         {tick + lead, deviation_from(run.truth(tick + lead), params.goal_in_target, *hand)});
   }
   if (followed.instants.empty()) {
-    throw std::invalid_argument("no joint position gives the goal of the hand");
+    throw std::invalid_argument(
+        "the arm reaches the demonstrated goal at none of the forecasts, must at least once: is "
+        "the target as near as in the demonstration?");
   }
   return followed;
 }

@@ -31,7 +31,9 @@ struct Task {
 
 std::string share_file(const std::string& package, const std::string& name) {
   const std::string folder = ros::package::getPath(package);
-  if (folder.empty()) throw std::invalid_argument("the package " + package + " is not found");
+  if (folder.empty())
+    throw std::invalid_argument("no package " + package +
+                                " in ROS_PACKAGE_PATH: is a workspace sourced?");
   return folder + "/" + name;
 }
 
@@ -112,7 +114,9 @@ void write_table(const Judged& judged, const std::string& path) {
          << (label ? prf_decision::kIntentNames[static_cast<std::size_t>(*label)] : "none") << "\n";
   }
   file.close();
-  if (!file) throw std::runtime_error(path + " cannot be written");
+  if (!file)
+    throw std::runtime_error(
+        path + " cannot be written: is its folder there, and may this user write to it?");
 }
 
 // Beside a bag, where train_hmm --labels csv looks for it; else in the folder.
@@ -122,7 +126,8 @@ std::string table_of(const Task& task, const std::string& path) {
     return (std::filesystem::path(task.folder) / from.stem()).string() + ".csv";
   }
   if (from.extension() != ".bag") {
-    throw std::invalid_argument("--out: a folder for the labels of " + path + " is needed");
+    throw std::invalid_argument(
+        path + " is no bag, beside which labels are written: give a folder for them with --out");
   }
   return std::filesystem::path(from).replace_extension(".csv").string();
 }
@@ -162,7 +167,10 @@ void label(Task task, bool writes) {
   if (task.json.empty()) return;
   std::ofstream file(task.json);
   file << nlohmann::ordered_json{{"runs", all}}.dump(1) << "\n";
-  if (!file) throw std::invalid_argument("--json = " + task.json + " cannot be written");
+  if (!file)
+    throw std::invalid_argument(
+        "--json = " + task.json +
+        " cannot be written: is its folder there, and may this user write to it?");
 }
 
 }  // namespace

@@ -60,7 +60,9 @@ ObservedRun run_from_motion(const std::string& path, const std::string& node_fil
   const auto motion =
       std::make_shared<RecordedMotion>(read_motion(path, {"time", "tag_x", "tag_y", "tag_z"}));
   if (motion->orientation.empty()) {
-    throw std::invalid_argument(path + " has no columns tag_qx .. tag_qw");
+    throw std::invalid_argument(
+        path +
+        ": no columns tag_qx, tag_qy, tag_qz, tag_qw, must be there: record_motion writes them");
   }
   prf_predictor::TargetTracker tracker(read_tracker_params(node_file),
                                        read_predictor_file(predictor_file).make());
@@ -83,11 +85,14 @@ ObservedRun run_from_bag(const std::string& path) {
     const auto forecast = prf_ros::message_in<prf_msgs::TargetForecast>(message);
     if (forecast) run.forecasts.push_back(prf_ros::to_core(*forecast));
   }
-  if (run.forecasts.empty()) throw std::invalid_argument(path + " has no target/forecast");
+  if (run.forecasts.empty())
+    throw std::invalid_argument(
+        path + ": no message of target/forecast, `rosbag info` lists what it holds");
   auto tracked = std::make_shared<std::vector<TargetForecast>>();
   for (std::size_t i = 0; i < run.forecasts.size(); ++i) {
     if (i > 0 && run.forecasts[i].stamp <= run.forecasts[i - 1].stamp) {
-      throw std::invalid_argument(path + ": the stamps of target/forecast do not rise");
+      throw std::invalid_argument(path + ": the stamps of target/forecast do not rise at message " +
+                                  std::to_string(i + 1) + ", must: was the bag of one run?");
     }
     if (run.forecasts[i].status == TargetStatus::kTracking) tracked->push_back(run.forecasts[i]);
   }

@@ -56,7 +56,7 @@ def _constraint(entry, index):
     try:
         node = entry["j"]
         if isinstance(node, bool) or not isinstance(node, int):
-            raise ValueError(f"{what}: j must be a whole number")
+            raise ValueError(f"{what}: j is {node!r:.60}, must be a whole number")
         point = _array(entry["p"], f"{what}: p")
         if "half_widths" in entry:
             return elte_planner.box(node, point, _array(entry["half_widths"],
@@ -85,7 +85,7 @@ def _obstacle(entry, index):
 def _fixed(problem, dimensions):
     count = problem.get("n_fixed", 0)
     if isinstance(count, bool) or not isinstance(count, int) or count < 0:
-        raise ValueError("n_fixed must be a whole number, at least 0")
+        raise ValueError(f"n_fixed is {count!r:.60}, must be a whole number, at least 0")
     fixed = np.array(problem.get("y_fixed") or [], dtype=float).reshape(-1, dimensions)
     if len(fixed) != count:
         raise ValueError(f"y_fixed has {len(fixed)} rows, n_fixed is {count}")
@@ -94,7 +94,7 @@ def _fixed(problem, dimensions):
 
 def _solve(problem):
     if not isinstance(problem, dict):
-        raise ValueError("a problem must be an object")
+        raise ValueError(f"a problem is {problem!r:.60}, must be an object")
     for key in ("zeta", "wE", "wR"):
         if key not in problem:
             raise ValueError(f"the problem lacks '{key}'")

@@ -31,7 +31,10 @@ struct PoseSum {
   // The sum of the weights must be 1.
   TimedPose mean() const {
     if (!(orientation.norm() > 1e-3)) {
-      throw std::invalid_argument("combining: orientations at one node cancel each other");
+      throw std::invalid_argument(
+          "combining: the orientations of the demonstrations at " + std::to_string(time) +
+          " s are half a turn apart and have no mean, must be alike: leave out the "
+          "odd one");
     }
     return {time, {position, Eigen::Quaterniond(orientation).normalized()}};
   }

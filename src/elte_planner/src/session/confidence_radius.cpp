@@ -130,10 +130,12 @@ double ConfidenceRadius::operator()(const Eigen::Ref<const Eigen::MatrixXd>& cov
                                 std::to_string(covariance.cols()) + ", must be " +
                                 std::to_string(d) + " x " + std::to_string(d));
   }
-  if (!covariance.allFinite()) throw std::invalid_argument("covariance is not finite");
+  if (!covariance.allFinite()) {
+    throw std::invalid_argument("covariance has a value that is not finite, must be finite");
+  }
   const double scale = covariance.cwiseAbs().maxCoeff();
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale) {
-    throw std::invalid_argument("covariance is not symmetric");
+    throw std::invalid_argument("covariance differs from its transpose, must be symmetric");
   }
   // Missing dimensions have a variance, but no directions.
   Eigen::Matrix3d padded = scale * Eigen::Matrix3d::Identity();

@@ -18,7 +18,9 @@ void require_file(const std::string& name, const std::string& real_file) {
   std::error_code error;
   const auto type = fs::status(real_file, error).type();
   if (type == fs::file_type::not_found || type == fs::file_type::none) return;  // said on opening
-  if (type != fs::file_type::regular) throw std::invalid_argument(name + ": is no file");
+  if (type != fs::file_type::regular) {
+    throw std::invalid_argument(name + ": is a folder, pipe or device, must be a file");
+  }
   const auto size = fs::file_size(real_file, error);
   if (!error && size > kMaxDemonstrationBytes) {
     throw std::invalid_argument(name + ": has " + std::to_string(size) +
@@ -42,8 +44,9 @@ CurrentSkill::Skill CurrentSkill::load(const DemonstrationRequest& request, cons
   std::ifstream stream(real_file);
   if (!stream) {
     std::error_code error;
-    throw std::invalid_argument(
-        name + (fs::exists(real_file, error) ? ": cannot be read" : ": there is no such file"));
+    throw std::invalid_argument(name + (fs::exists(real_file, error)
+                                            ? ": cannot be read: may this user read it?"
+                                            : ": there is no such file"));
   }
   const Demonstration demonstration = read_demonstration(stream, name);
   if (demonstration.frame() != files_.frame) {

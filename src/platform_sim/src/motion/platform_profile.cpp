@@ -76,7 +76,10 @@ void require_sound(const std::string& name, const AxisProfile& axis) {
 
 void refuse_unknown(const YAML::Node& map, const std::string& where,
                     const std::set<std::string>& known) {
-  if (!map.IsMap()) throw std::invalid_argument(where + " must be a map");
+  if (!map.IsMap()) {
+    throw std::invalid_argument(where + " is " + prf_core::quoted(YAML::Dump(map)) +
+                                ", must be a map of keys, see config/profiles");
+  }
   for (const auto& entry : map) {
     const auto key = entry.first.as<std::string>();
     if (known.count(key) == 0)
@@ -85,11 +88,14 @@ void refuse_unknown(const YAML::Node& map, const std::string& where,
 }
 
 double number_at(const YAML::Node& map, const std::string& where, const std::string& key) {
-  if (!map[key]) throw std::invalid_argument(where + " lacks " + key);
+  if (!map[key]) {
+    throw std::invalid_argument(where + " lacks " + key + ", must have it, see config/profiles");
+  }
   try {
     return map[key].as<double>();
   } catch (const YAML::Exception&) {
-    throw std::invalid_argument(where + " " + key + " must be a number");
+    throw std::invalid_argument(where + " " + key + " is " +
+                                prf_core::quoted(YAML::Dump(map[key])) + ", must be a number");
   }
 }
 
@@ -97,8 +103,9 @@ AxisProfile read_axis(const YAML::Node& node, const std::string& name) {
   refuse_unknown(node, name, {"lag", "sines"});
   AxisProfile axis;
   if (node["lag"]) axis.lag = number_at(node, name, "lag");
-  if (!node["sines"] || !node["sines"].IsSequence())
-    throw std::invalid_argument(name + " needs a list of sines");
+  if (!node["sines"] || !node["sines"].IsSequence()) {
+    throw std::invalid_argument(name + " has no list `sines`, must have one, see config/profiles");
+  }
   for (const YAML::Node& sine : node["sines"]) {
     const std::string where = name + " sine";
     refuse_unknown(sine, where, {"amplitude", "rate", "phase"});
@@ -119,7 +126,7 @@ PlatformProfile read_yaml(const YAML::Node& file) {
   if (file["base"]) {
     const auto base = file["base"].as<std::string>();
     if (base != "free" && base != "carried") {
-      throw std::invalid_argument("base = " + base + ", must be free or carried");
+      throw std::invalid_argument("base = " + prf_core::quoted(base) + ", must be free or carried");
     }
     profile.carries_base = base == "carried";
   }
@@ -138,8 +145,8 @@ PlatformProfile read_csv(const std::string& path) {
   for (const std::string& column : profile.recording->columns()) {
     if (std::find(kAxisNames.begin(), kAxisNames.end(), column) == kAxisNames.end() ||
         !seen.insert(column).second) {
-      throw std::invalid_argument("column '" + column +
-                                  "', must be one of surge, sway, heave, roll, pitch, yaw, once");
+      throw std::invalid_argument("column " + prf_core::quoted(column) +
+                                  ", must be one of surge, sway, heave, roll, pitch, yaw, once");
     }
   }
   return profile;

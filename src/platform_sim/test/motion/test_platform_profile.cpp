@@ -141,13 +141,14 @@ TEST(PlatformProfile, RefusesFilesThatItCannotRead) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"swing: {sines: []}", "no key 'swing'"},
       {"sway: {sinus: []}", "no key 'sinus'"},
-      {"sway: {lag: 1}", "needs a list of sines"},
+      {"sway: {lag: 1}", "has no list `sines`"},
       {"sway: {sines: [{amplitude: 0.1, rate: 1}]}", "lacks phase"},
-      {"sway: {sines: [{amplitude: much, rate: 1, phase: 0}]}", "amplitude must be a number"},
+      {"sway: {sines: [{amplitude: much, rate: 1, phase: 0}]}",
+       "amplitude is \"much\", must be a number"},
       {"sway: {sines: [{amplitude: .nan, rate: 1, phase: 0}]}", "sway amplitude = nan"},
       {"sway: {sines: [{amplitude: 0.01, rate: -1, phase: 0}]}", "sway rate = -1"},
       {"sway: {lag: -1, sines: []}", "sway lag = -1"},
-      {"base: floating", "base = floating, must be free or carried"},
+      {"base: floating", "base = \"floating\", must be free or carried"},
       {"[1, 2]", "must be a map"},
       {"sway: {", "motion is"},
   };
@@ -156,7 +157,8 @@ TEST(PlatformProfile, RefusesFilesThatItCannotRead) {
     EXPECT_NE(said.find(complaint), std::string::npos) << text << " -> " << said;
   }
   const std::string rows = "0,0\n0.5,0\n1,0.2\n1.5,0\n";
-  EXPECT_NE(complaint_about("time,tilt\n" + rows, ".csv").find("column 'tilt'"), std::string::npos);
+  EXPECT_NE(complaint_about("time,tilt\n" + rows, ".csv").find("column \"tilt\""),
+            std::string::npos);
   EXPECT_NE(complaint_about("time,sway\n" + rows, ".csv").find("sway amplitude = 0.2, must be"),
             std::string::npos);
   EXPECT_NE(complaint_about("time,sway\n0,0\n0.5,nan\n1,0\n2,0\n", ".csv").find("line 3: sway"),

@@ -15,7 +15,8 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 // Column k: ln b(o_k), with the excluded states at -infinity.
 Eigen::Matrix3Xd log_densities(const HmmParams& parameters, const Sequence& sequence) {
-  if (sequence.empty()) throw std::invalid_argument("the sequence has no observations");
+  if (sequence.empty())
+    throw std::invalid_argument("the sequence has 0 observations, must have at least 1");
   const EmissionModel emission(parameters);
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(sequence.size()));
   for (std::size_t k = 0; k < sequence.size(); ++k) {

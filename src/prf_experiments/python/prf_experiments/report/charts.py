@@ -75,7 +75,7 @@ def bars(groups: Sequence[str], series: dict[str, dict[str, tuple[float, float]]
 def lines(series: dict[str, tuple[Sequence[float], Sequence[float]]], x_label: str, y_label: str,
           description: str, from_zero: bool = True) -> Markup:
     """A line for each name: {name: (x, y)}."""
-    panel = plots.panel(y_label, 360, None, x_label)
+    panel = plots.panel(y_label, 330 + 15 * len(series), None, x_label)  # the legend has two columns
     for row, (name, (x, y)) in enumerate(series.items()):
         if len(x):
             plots.add_line(panel, x, y, name, color=COLOURS[row % 4],

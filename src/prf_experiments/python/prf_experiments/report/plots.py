@@ -112,6 +112,8 @@ def name_values(to: Any, names: dict[int, str]) -> None:
 def legend_above(to: Any, columns: int = 3) -> None:
     """Moves the legend out of the plot, with fewer columns where they would not fit on a phone; a
     click on an entry hides its line."""
+    if not to.legend:  # nothing is drawn
+        return
     legend = to.legend[0]
     lengths = [5 + len(item.label.value) for item in legend.items]
     while columns > 1 and max(sum(lengths[row:row + columns])

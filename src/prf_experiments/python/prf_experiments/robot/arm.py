@@ -20,7 +20,8 @@ class Chain:
         link = tip
         while link != base:
             if link not in above:
-                raise ValueError(f"the robot has no joints from {base} to {tip}")
+                raise ValueError(f"the URDF has no joints from link {base} to link {tip}, must have: link {link} "
+                                 "has no parent; see what check_urdf says")
             joint = above[link]
             moves = joint.attrib["type"] in ("revolute", "continuous")
             if moves:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command `calibrate`: a bag of one minute of motion to the file that real_robot.launch reads."""
+import math
 import os
 import sys
 import warnings
@@ -54,6 +55,13 @@ def with_camera(urdf: str, camera_in_hand: np.ndarray) -> str:
     return ElementTree.tostring(robot, encoding="unicode")
 
 
+def _of_arm(names, positions) -> list[float] | None:
+    """Positions of the arm's joints; None: not all are there and finite."""
+    found = dict(zip(names, positions))
+    values = [found.get(name, math.nan) for name in recording.ARM_JOINTS]
+    return values if all(map(math.isfinite, values)) else None
+
+
 def read(path: str, tag_id: int):
     """Joints, commands and detections of a bag: stamps in s from its first joints on."""
     rows: dict[str, list] = {topic: [] for topic in TOPICS}
@@ -62,19 +70,19 @@ def read(path: str, tag_id: int):
         bags.require_types(bag, TOPICS)
         for topic, message, _ in bag.read_messages(topics=["/" + topic for topic in TOPICS]):
             stamp = message.header.stamp.to_nsec()
-            if topic == "/joint_states" and set(recording.ARM_JOINTS) <= set(message.name):
-                rows["joint_states"].append((stamp, [message.position[message.name.index(name)]
-                                                     for name in recording.ARM_JOINTS]))
-            elif topic == "/joint_command" and message.points:
-                rows["joint_command"].append((stamp, [message.points[0].positions[message.joint_names.index(name)]
-                                                      for name in recording.ARM_JOINTS]))
+            if topic == "/joint_states" and (joints := _of_arm(message.name, message.position)):
+                rows["joint_states"].append((stamp, joints))
+            elif topic == "/joint_command" and message.points \
+                    and (joints := _of_arm(message.joint_names, message.points[0].positions)):
+                rows["joint_command"].append((stamp, joints))
             elif topic == "/tag_detections":
                 rows["tag_detections"] += [
                     (stamp, [*(getattr(one.pose.pose.position, axis) for axis in "xyz"),
                              *(getattr(one.pose.pose.orientation, axis) for axis in "xyzw")])
                     for one in message.detections if one.id == tag_id]
     if len(rows["joint_states"]) < 2:
-        raise bags.BagError(f"{path}: no joint_states with the joints of the arm")
+        raise bags.BagError(f"{path}: {len(rows['joint_states'])} joint_states with the joints "
+                            f"{recording.ARM_JOINTS[0]} .. {recording.ARM_JOINTS[-1]}, must be at least 2")
     start = rows["joint_states"][0][0]
 
     def arrays(topic):
@@ -146,10 +154,12 @@ def describe(path: str) -> int:
         try:
             place = np.array(yaml.safe_load(stream)["calibration"]["camera_in_hand"], float)
         except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
-            raise calibration.CalibrationError(f"{path} was not written by calibrate: {bags.one_line(error)}") from None
+            raise calibration.CalibrationError(f"{path}: no calibration.camera_in_hand of 7 numbers, must be a file "
+                                               f"that calibrate wrote: {bags.one_line(error)}") from None
     if place.shape != (7,) or not np.all(np.isfinite(place)) or abs(np.linalg.norm(place[3:]) - 1.0) > 1e-3 \
             or np.linalg.norm(place[:3]) > 1.0:
-        raise calibration.CalibrationError(f"{path}: camera_in_hand must be m within 1 m and a unit quaternion")
+        raise calibration.CalibrationError(f"{path}: camera_in_hand is {place.tolist()}, must be x y z within 1 m and "
+                                           "a unit quaternion x y z w")
     print(with_camera(description(), place))
     return 0
 
@@ -164,7 +174,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("--description", metavar="FILE", help="prints the robot description with a file's camera")
     options = parser.parse_args(words)
     if sum(one is not None for one in (options.bag, options.seeds, options.description)) != 1:
-        parser.error("one of BAG, --seeds and --description must be given")
+        parser.error("give one of BAG, --seeds and --description")
 
     def run():
         try:

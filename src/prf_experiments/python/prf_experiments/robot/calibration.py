@@ -91,7 +91,8 @@ def _first(hand, detections):
         found.append((float(np.median(np.linalg.norm(shift, axis=1)) + 0.1 * np.median(np.linalg.norm(turn, axis=1))),
                       name, camera, tag))
     if not found:
-        raise CalibrationError("no method of OpenCV finds a solution: the hand must turn about two axes")
+        raise CalibrationError("no method of OpenCV finds a solution: turn the hand about two axes, by 30 degrees and "
+                               "more")
     return min(found, key=lambda one: one[0])
 
 
@@ -105,7 +106,8 @@ def calibrate(hand: Hand, span: tuple[float, float], stamps: np.ndarray, detecti
     usable = inside & np.all(np.isfinite(detections), axis=1)
     stamps, detections = stamps[usable], detections[usable]
     if len(stamps) < LEAST_DETECTIONS:
-        raise CalibrationError(f"{len(stamps)} detections of the tag, at least {LEAST_DETECTIONS} are needed")
+        raise CalibrationError(f"{len(stamps)} detections of the tag while the joints are known, must be at least "
+                               f"{LEAST_DETECTIONS}: is it in view, and --tag its id?")
     some = np.unique(np.linspace(0, len(stamps) - 1, MOST_DETECTIONS).astype(int))
     stamps, detections = stamps[some], detections[some]
     _, method, camera, tag = _first(hand(stamps), detections)
@@ -137,7 +139,8 @@ def arm_delay(command_stamps: np.ndarray, commands: np.ndarray, stamps: np.ndarr
     spline = scipy.interpolate.CubicSpline(command_stamps, np.unwrap(commands, axis=0), extrapolate=False)
     inside = (stamps > command_stamps[0] + LONGEST_DELAY) & (stamps < command_stamps[-1])
     if np.count_nonzero(inside) < LEAST_DETECTIONS:
-        raise CalibrationError("too few commands beside the measured joints")
+        raise CalibrationError(f"{np.count_nonzero(inside)} measured joints within the time of joint_command, must be "
+                               f"at least {LEAST_DETECTIONS}: record both over the whole minute")
     times, joints = stamps[inside], np.unwrap(measured, axis=0)[inside]
 
     def off(delay):
@@ -146,7 +149,8 @@ def arm_delay(command_stamps: np.ndarray, commands: np.ndarray, stamps: np.ndarr
     grid = np.linspace(0.0, LONGEST_DELAY - 1e-3, 41)
     costs = [off(one) for one in grid]
     if not min(costs) < 0.5 * max(costs):
-        raise CalibrationError("the arm did not move enough for its delay to be found")
+        raise CalibrationError("the arm hardly moves while it is commanded, so its delay cannot be found: move it by "
+                               "joint_command, not by hand")
     best = int(np.argmin(costs))
     return float(scipy.optimize.minimize_scalar(
         off, bounds=(grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]), method="bounded").x)

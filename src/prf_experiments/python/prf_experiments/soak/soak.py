@@ -152,6 +152,18 @@ def text(summary: dict) -> str:
     return aligned(rows) + "\n" + "\n".join(told) + "\n"
 
 
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    active = [row for row in summary["recoveries"] if not row["idle"]]
+    after = [row["recovered_s"] for row in active if row["recovered_s"] is not None]
+    wrong = len(summary["failures"])
+    return (f"In {summary['simulated_s'] / 60.0:.1f} min {sum(summary['executions'].values())} executions and "
+            f"{len(active)} faults while one was asked for, recovered from {len(after)}"
+            + (f" after at most {max(after):.1f} s" if after else "")
+            + (f"; {wrong} thing{'s are' if wrong > 1 else ' is'} NOT RIGHT, listed below." if wrong else
+               "; nothing is wrong."))
+
+
 def memory_figure(samples: dict) -> page.Markup:
     return charts.lines({node: ([entry[0] / 60.0 for entry in found], [entry[1] for entry in found])
                          for node, found in sorted(samples.items())},
@@ -162,13 +174,17 @@ def memory_figure(samples: dict) -> page.Markup:
 def write(folder: str, command: str, summary: dict, watch: Watch) -> None:
     faults = [(row["fault"], row["at_s"], "no execution" if row["idle"] else row["recovered_s"])
               for row in summary["recoveries"]]
-    sections = [Section("Memory", "Every node's resident memory.",
+    wrong = [Section("Not right", body=[page.table([(failure,) for failure in summary["failures"]])])]
+    sections = [*(wrong if summary["failures"] else []),
+                Section("Executions", body=[page.table(sorted(summary["executions"].items()), ("result", "count"))]),
+                Section("Memory", "Every node's resident memory.",
                         [page.plotted(lambda: memory_figure(watch.samples))]),
                 Section("Faults", "Recovered after so many s; –: not in time.",
                         [page.table(faults, ("fault", "at, s", "recovered after, s"))])]
     files.write_json(os.path.join(folder, "soak.json"), {"command": command, **summary})
     files.write(os.path.join(folder, "index.html"), page.whole(
-        "study.html", title="Soak", command=command, conclusion="", text=text(summary), sections=sections))
+        "study.html", title="Soak", command=command, conclusion=conclusion(summary), text=text(summary),
+        sections=sections))
 
 
 MEANING = ("Heavy stepping without a pause: executions begun again and again by the action, faults at random. Memory: "

@@ -76,6 +76,30 @@ def text(summary: dict) -> str:
             + ("\n" + aligned(lines) if len(lines) > 1 else ""))
 
 
+MAIN, CHANCE = "execution_lateral_mean_mm", 0.05  # what the conclusion is drawn from
+
+
+def conclusion(summary: dict) -> str:
+    """One sentence: successes, and differences in `MAIN` that chance does not explain.
+
+    All pairs are tested at once, so each one's p must be below CHANCE over their number (Bonferroni).
+    """
+    tests: dict[str, str] = {}
+    for found in summary["cells"]:
+        tests[found["planner"]] = tests.get(found["planner"], "") + found["tests"].replace("×", "")
+    told = "S: " + ", ".join(f"{planner} {word.count('S')} of {len(word)}" for planner, word in tests.items())
+    tested = [found for found in summary["pairs"] if found["measure"] == MAIN and found["t_test_p"] is not None]
+    if not tested:
+        return told + "."
+    sure = [found for found in tested if found["t_test_p"] < CHANCE / len(tested)]
+    nearer = [f"{abs(found['difference_mean_mm']):.1f} mm {'less' if found['difference_mean_mm'] < 0 else 'more'} than "
+              f"with {found['second']} ({found['motion']})" for found in sure]
+    chance = f"paired t-test, p < {CHANCE / len(tested):.2g}"
+    return f"{told}; on the way the tag is " + (
+        f"off the axis with {sure[0]['first']} by {', '.join(nearer)} ({chance})." if sure else
+        f"off the axis by no more or less with {tested[0]['first']} than with the others (no {chance}).")
+
+
 def distance_figure(summary: dict) -> Markup:
     """Bars of each measure with its spread over the seeds."""
     motions = list(dict.fromkeys(found["motion"] for found in summary["cells"]))
@@ -103,4 +127,4 @@ MEANING = (
     "has what the first\nplanner has less than another one with the same seed, paired t-test and "
     "Wilcoxon's signed-rank test.")
 
-STUDY = Study("Planners", MEANING, AXES, FIXED, summarise, text, sections)
+STUDY = Study("Planners", MEANING, AXES, FIXED, summarise, text, sections, conclude=conclusion)

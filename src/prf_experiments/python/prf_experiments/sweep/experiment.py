@@ -32,14 +32,18 @@ SWEEP_ARGUMENTS = {**trial_arguments.LAUNCHED, **trial_arguments.RESULTS}
 def families(text: str) -> list[str]:
     unknown = [name for name in text.split(",") if name not in severity.LEVELS]
     if unknown:
-        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is no family, must be of {', '.join(severity.LEVELS)}")
+        guess = args.meant(unknown[0], *severity.LEVELS)
+        raise argparse.ArgumentTypeError(f"'{unknown[0]}' is no family{guess}; valid: {', '.join(severity.LEVELS)}")
     return text.split(",")
 
 
 def levels(text: str) -> list[float]:
-    found = [float(word) for word in text.split(",")]
+    try:
+        found = [float(word) for word in text.split(",")]
+    except ValueError:
+        found = [-1.0]
     if not all(0.0 <= level <= 200.0 for level in found):
-        raise argparse.ArgumentTypeError(f"{text} is not a list of levels")
+        raise argparse.ArgumentTypeError(f"'{text}' must be levels 0 .. 200 with commas between, as 0.5,1,2")
     return found
 
 

@@ -72,6 +72,19 @@ def text(summary: dict) -> str:
         "\n" if violations else "")
 
 
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    found = [one for one in summary["cells"] if one["fault"]]
+    tests = "".join(one["tests"] for one in found)
+    broken_in = [f"{one['fault']}, {one['gait']}" for one in summary["cells"] if one["violations"]]
+    held = max((one["time_to_hold_s"] for one in found if one["time_to_hold_s"] is not None), default=None)
+    told = ", ".join(f"{count} {verdict}" for verdict in "SPF×" if (count := tests.count(verdict)))
+    return (f"{len(tests)} trials with a fault: {told or 'none'}; "
+            + ("" if held is None else f"where the execution was held, it was so after at most {held:.2f} s; ")
+            + ("the invariants of every command hold in all trials." if not broken_in else
+               f"INVARIANTS BROKEN with {'; '.join(broken_in)}."))
+
+
 def sections(_summary: dict, results: list[dict], _folder: str) -> list[Section]:
     linked = [(fault or "none", gait, verdict_links(found),
                "; ".join(dict.fromkeys(result["reason"] for result in found)))
@@ -89,4 +102,4 @@ MEANING = (
     "for every joint command of every trial.\n× (INVALID) is right where the recorder's disk is full.")
 
 STUDY = Study("Faults", MEANING, AXES, FIXED, summarise, text, sections, seeds=1,
-              may_be_invalid=may_be_invalid)
+              may_be_invalid=may_be_invalid, conclude=conclusion)

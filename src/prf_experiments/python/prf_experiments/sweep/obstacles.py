@@ -43,6 +43,19 @@ def text(summary: dict) -> str:
         for found in summary["cells"]])
 
 
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    parts = []
+    for avoid, words in ((True, "heeded by the planner"), (False, "not heeded")):
+        found = [one for one in summary["cells"] if one["avoid"] is avoid and one["trials_count"]]
+        if found:
+            parts.append(f"{words}, the post is touched in {sum(one['touched_count'] for one in found)} of "
+                         f"{sum(one['trials_count'] for one in found)} trials, with up to "
+                         f"{newton(max(one['largest_contact_n'] for one in found))} N")
+    told = "; ".join(parts) or "no trial is valid"
+    return told[:1].upper() + told[1:] + "."
+
+
 def sections(_summary: dict, results: list[dict], _folder: str) -> list[Section]:
     linked = [(gait, avoid, verdict_links(cell(results, gait=gait, avoid=avoid)))
               for gait in values(results, "gait") for avoid in values(results, "avoid")]
@@ -57,4 +70,4 @@ MEANING = (
     "more than 1 N; least and most over the seeds. Other contact: the largest on anything else.\nVerdicts "
     "by the rules of all trials: any such contact is an issue, above 50 N a failure.")
 
-STUDY = Study("Post in the way", MEANING, AXES, FIXED, summarise, text, sections)
+STUDY = Study("Post in the way", MEANING, AXES, FIXED, summarise, text, sections, conclude=conclusion)

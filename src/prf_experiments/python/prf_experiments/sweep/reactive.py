@@ -35,6 +35,17 @@ def text(summary: dict) -> str:
             "mm.\n")
 
 
+def conclusion(summary: dict) -> str:
+    """One sentence."""
+    error, reached, off = (summary[name]["mean"] for name in NUMBERS)
+    parts = ([] if error is None else
+             [f"forecasts {summary['forecast_horizon_s']} s ahead are {error:.1f} mm off, rms"]) + [
+        "the target is not reached" if reached is None else f"the target is reached after {reached:.1f} s"] + (
+        [] if off is None else [f"while tracking the tag is {off:.1f} mm off the axis, on average"])
+    told = "; ".join(parts)
+    return told[:1].upper() + told[1:] + "."
+
+
 def phase_shares(data: Recording) -> str:
     """Share of the time spent in each phase."""
     return ", ".join(f"{name.lower()} {100 * np.mean(data.progress.states == state):.0f} %"
@@ -66,4 +77,5 @@ def sections(_summary: dict, results: list[dict], folder: str) -> list[Section]:
 
 MEANING = "One trial in detail: how far forecasts are from the target, and how well it is followed."
 
-STUDY = Study("Reactive execution", MEANING, {}, FIXED, summarise, text, sections, seeds=1, keep_bags="all")
+STUDY = Study("Reactive execution", MEANING, {}, FIXED, summarise, text, sections, seeds=1, keep_bags="all",
+              conclude=conclusion)

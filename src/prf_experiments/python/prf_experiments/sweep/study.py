@@ -124,18 +124,22 @@ def write_page(path: str, study: Study, command: str, versions: dict, results: l
     """The page of a study; links are relative to its folder."""
     shared = {name: found[0] for name in trial_arguments.LAUNCHED
               if len(found := values(results, name)) == 1}
+
+    def apart(arguments):
+        return ", ".join(f"{name} {args.show(value) or 'none'}" for name, value in arguments.items()
+                         if name in trial_arguments.LAUNCHED and name not in shared) or "the only one"
     took = sum(result.get("disk_bytes", 0) for result in results)
     sections = [
         *study.sections(summary, results, os.path.dirname(path)),
         Section("Trials", body=[page.table(
-            [(verdict_link(result), trial_arguments.name(result["arguments"]), result["inspected"],
+            [(verdict_link(result), apart(result["arguments"]), result["inspected"],
               "; ".join([result["reason"], *("INVARIANT BROKEN: " + text
                                              for text in broken(result))]),
               result.get("cause", ""))
              for result in results],
             ("verdict", "trial", "inspected", "reason", "why"))]),
         Section("Arguments that all trials share, and versions", body=[page.table(
-            [*((name, args.show(value)) for name, value in shared.items()), *versions.items(),
+            [*((name, args.show(value) or "none") for name, value in shared.items()), *versions.items(),
              ("disk, MB", took / sweep.MEGABYTE)])])]
     files.write(path, page.whole("study.html", title=study.title, command=command,
                                  conclusion=study.conclude(summary), text=study.text(summary),

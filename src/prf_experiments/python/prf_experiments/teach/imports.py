@@ -88,7 +88,8 @@ def dataset(file: Any, path: str, names: list[str], columns: int | None) -> np.n
                 raise DemonstrationError(
                     f"{path}: {name} has shape {values.shape}, must be (n, {columns})")
             return values
-    raise DemonstrationError(f"{path}: no data set {' or '.join(names)}")
+    raise DemonstrationError(f"{path}: no data set {' or '.join(names)}, must have it; it holds "
+                             f"{', '.join(sorted(file)) or 'nothing'}")
 
 
 def read_hdf5(path: str) -> tuple[np.ndarray, np.ndarray]:
@@ -106,7 +107,7 @@ def read_hdf5(path: str) -> tuple[np.ndarray, np.ndarray]:
         times = seconds(dataset(file, path, [f"{hand}_time", "joint_state_info/joint_time"], None))
     if not len(times) == len(positions) == len(orientations):
         raise DemonstrationError(f"{path}: {len(times)} times, {len(positions)} positions and "
-                                 f"{len(orientations)} orientations")
+                                 f"{len(orientations)} orientations, must be as many")
     return times, np.hstack([positions, orientations]).astype(float)
 
 

@@ -16,6 +16,10 @@ class Page(unittest.TestCase):
         self.assertIn("<tr><td>yes</td><td>no</td><td>–</td><td class=\"number\">0.1235</td>"
                       "<td class=\"number\">7</td><td>a &amp; b</td><td><b>c</b></td></tr>", text)
 
+    def test_texts_get_room_so_that_a_narrow_screen_scrolls_rather_than_stacks_their_words(self):
+        text = page.table([("short", 30 * "x", 70 * "x", Markup("<b>") + "y" + Markup("</b>"))])
+        self.assertIn(f'<td>short</td><td class="words">{30 * "x"}</td><td class="text">{70 * "x"}</td><td><b>y', text)
+
     def test_everything_is_escaped_that_is_not_markup(self):
         text = page.render("study.html", title="<t>", command="<c>", text="<x>", conclusion="<o>",
                            sections=[Section("<s>", "<p>", [Markup("<hr>")])])

@@ -4,9 +4,16 @@ import tempfile
 import unittest
 
 import numpy as np
+import rosbag
+import rospy
+import sensor_msgs.msg
+import trajectory_msgs.msg
+from prf_experiments.record import recording
 from prf_experiments.robot import arm, calibrate, calibration, made_motion
 
+import prf_msgs.msg
 from prf_experiments import geometry
+from prf_msgs import bags
 
 URDF = calibrate.description()
 CHAIN = arm.Chain(URDF, "j2s7s300_link_base", calibrate.HAND)
@@ -36,7 +43,7 @@ class Calibration(unittest.TestCase):
         with self.assertRaisesRegex(calibration.CalibrationError, "detections"):
             self.of(motion, slice(0, 50))
         still = np.tile(made_motion.POSTURE, (len(motion.stamps), 1))
-        with self.assertRaisesRegex(calibration.CalibrationError, "did not move"):
+        with self.assertRaisesRegex(calibration.CalibrationError, "hardly moves"):
             calibration.arm_delay(motion.stamps, still, motion.stamps, still + 1e-5 * np.sin(motion.stamps)[:, None])
 
     def test_the_description_gets_the_camera(self):
@@ -46,6 +53,23 @@ class Calibration(unittest.TestCase):
         off = geometry.compose(geometry.inverse(place), found)
         self.assertLess(np.linalg.norm(off[:3]), 1e-8)
         self.assertLess(geometry.rotation(off).magnitude(), 1e-7)
+
+    # Fault 54: joint names or positions in the bag that are not the arm's -> refused with what was found, no file
+    def test_reads_no_joints_that_are_not_the_arms(self):
+        names = recording.ARM_JOINTS
+        for lacking in ([names[0]], [*names[:-1], "other"]):
+            with self.subTest(lacking):
+                states = sensor_msgs.msg.JointState(name=lacking, position=[0.1] * len(lacking))
+                commands = trajectory_msgs.msg.JointTrajectory(
+                    joint_names=lacking, points=[trajectory_msgs.msg.JointTrajectoryPoint(positions=[0.1])])
+                with tempfile.TemporaryDirectory() as folder:
+                    path = os.path.join(folder, "a.bag")
+                    with rosbag.Bag(path, "w") as bag:
+                        for topic, message in (("joint_states", states), ("joint_command", commands),
+                                               ("tag_detections", prf_msgs.msg.TagDetectionArray())):
+                            bag.write("/" + topic, message, rospy.Time(1))
+                    with self.assertRaisesRegex(bags.BagError, "0 joint_states with the joints j2s7s300_joint_1"):
+                        calibrate.read(path, 0)
 
     # Fault 54: a calibration file that calibrate did not write -> one line, exit code 1
     def test_refuses_a_file_that_it_did_not_write(self):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import os
 import sys
+import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -70,6 +72,23 @@ class Measures(unittest.TestCase):
         self.assertIn("NOT RIGHT: no execution came to an end", told)
         self.assertIn("NOT RIGHT: contact above 50 N at 3.00 s (box with", told)
         self.assertIn("NOT RIGHT: the run ended after 40.0 of 60 s", told)
+
+    def test_the_page_begins_with_a_sentence_and_what_is_not_right(self):
+        summary = {"simulated_s": 90.0, "executions": {"DONE": 3, "LOST": 1}, "failures": [], "memory": [],
+                   "forecast_error_median_mm": [], "recoveries": [
+                       {"fault": "a", "at_s": 1.0, "idle": False, "recovered_s": 2.5},
+                       {"fault": "b", "at_s": 2.0, "idle": False, "recovered_s": None},
+                       {"fault": "c", "at_s": 3.0, "idle": True, "recovered_s": None}]}
+        said = "In 1.5 min 4 executions and 2 faults while one was asked for, recovered from 1 after at most 2.5 s; "
+        self.assertEqual(soak.conclusion(summary), said + "nothing is wrong.")
+        summary["failures"] = ["no recovery <b>"]
+        self.assertEqual(soak.conclusion(summary), said + "1 thing is NOT RIGHT, listed below.")
+        with tempfile.TemporaryDirectory() as folder:
+            soak.write(folder, "a command", summary, types.SimpleNamespace(samples={}))
+            with open(os.path.join(folder, "index.html"), encoding="utf-8") as stream:
+                page = stream.read()
+        self.assertLess(page.index("<td>no recovery &lt;b&gt;</td>"), page.index("<h2>Memory</h2>"))
+        self.assertIn('<tr><td>LOST</td><td class="number">1</td></tr>', page)
 
 
 if __name__ == "__main__":

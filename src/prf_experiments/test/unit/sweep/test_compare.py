@@ -46,6 +46,13 @@ class Compare(unittest.TestCase):
                 self.assertEqual(pair["wilcoxon_p"] < 0.01, significant)
                 self.assertEqual(pair["t_test_p"] < 0.01, significant)
 
+    def test_the_conclusion_names_differences_beyond_chance_only(self):
+        told = compare.conclusion(compare.summarise(trials(2.0)))
+        self.assertRegex(told, r"^S: elte 24 of 24, dmp 24 of 24; on the way the tag is off the axis with elte by "
+                         r"\d\.\d mm less than with dmp \(light\), \d\.\d mm less .* p < 0\.025\)\.$")
+        self.assertIn("no more or less with elte", compare.conclusion(compare.summarise(trials(0.0))))
+        self.assertEqual(compare.conclusion(compare.summarise(trials(2.0)[:12])), "S: elte 12 of 12.")
+
     def test_leaves_out_seeds_of_which_a_planner_has_no_number(self):
         results = trials(2.0, motions=["heavy"])
         results[3]["figures"] = {}

@@ -30,6 +30,12 @@ class Faults(unittest.TestCase):
         self.assertIn("INVARIANT BROKEN: kill/decision@5, stand: step beyond", text)
         self.assertRegex(text, r"disk@5 +stand +× +– +– +– +– +– +hold")
 
+    def test_the_conclusion_names_what_is_broken(self):
+        self.assertEqual(faults.conclusion(faults.summarise(self.results())),
+                         "2 trials with a fault: 1 S, 1 ×; where the execution was held, it was so after at most 0.31 "
+                         "s; INVARIANTS BROKEN with kill/decision@5, stand.")
+        self.assertTrue(faults.conclusion(faults.summarise(self.results()[1:])).endswith("hold in all trials."))
+
     def test_invalid_is_right_where_nothing_can_be_recorded(self):
         self.assertTrue(faults.may_be_invalid({"fault": "drop/tf,disk@5"}))
         self.assertFalse(faults.may_be_invalid({"fault": "kill/decision@5"}))

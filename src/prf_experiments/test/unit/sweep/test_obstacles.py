@@ -22,6 +22,12 @@ class PostInTheWay(unittest.TestCase):
         self.assertRegex(text, r"stand +no +S S +2 of 2 +12\.0 +40\.0 +0\.4")
         self.assertRegex(text, r"stand +yes +S S +0 of 2 +0\.0 +0\.3 +0\.4")
 
+    def test_the_conclusion_counts_touches_with_and_without_avoidance(self):
+        self.assertEqual(
+            obstacles.conclusion(obstacles.summarise(trials(False, 12.0, 40.0) + trials(True, 0.0, 0.3))),
+            "Heeded by the planner, the post is touched in 0 of 2 trials, with up to 0.3 N; not heeded, the post is "
+            "touched in 2 of 2 trials, with up to 40.0 N.")
+
     def test_the_obstacle_brings_its_skill_along(self):
         for values, expected in (({"demonstration": None}, "inspect_box.csv"),
                                  ({"demonstration": None, "obstacle": "post"},

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import os
 import re
+import sys
+import tempfile
 import unittest
 
-from prf_experiments.sweep import ablate, cart, compare, experiment, study, table
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
+import made_up
+from prf_experiments.sweep import ablate, cart, compare, experiment, obstacles, study, table
 
 PAGES = os.path.join(os.path.dirname(os.path.realpath(__file__)), *[".."] * 5, "docs", "results")
 
@@ -34,6 +38,18 @@ class ResultsPage(unittest.TestCase):
             given, text = re.findall(r"```(?:text)?\n(.*?)```\n", page, flags=re.S)
             self.assertEqual(page, study.results_page(described.STUDY, given.strip(), text))
             self.assertEqual(command(*given.split()[1:]), given.strip())
+
+class TrialsOnThePage(unittest.TestCase):
+    def test_are_named_by_what_tells_them_apart(self):
+        results = [made_up.result(seed=seed, gait="step", disturb="") for seed in (1, 2)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "index.html")
+            study.write_page(path, obstacles.STUDY, "a command", {}, results, obstacles.summarise([]))
+            with open(path, encoding="utf-8") as stream:
+                page = stream.read()
+        self.assertIn("<td>seed 2</td>", page)
+        self.assertIn("<tr><td>disturb</td><td>none</td></tr>", page)
+        self.assertIn("<tr><td>gait</td><td>step</td></tr>", page)
 
 
 if __name__ == "__main__":
