@@ -89,7 +89,8 @@ void AdapterNode::on_command(const trajectory_msgs::JointTrajectory& message) {
     take(adapter_.add_command(*stamp, *position, *velocity));
   } else {
     const std::string why =
-        "the command has not one point with position and velocity of each joint";
+        "the command must have one point with position and velocity of each of " +
+        listed(params_.driver.joints);
     inputs_.drop(topics::kJointCommand, why);
     take(adapter_.add_command(*stamp, {}, {}, why));
   }
@@ -136,7 +137,8 @@ void AdapterNode::send(const DriverCommand& command) {
 void AdapterNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& out) {
   using Level = diagnostic_msgs::DiagnosticStatus;
   if (output_->subscribers() == 0) {
-    out.summary(Level::ERROR, "no driver takes " + params_.driver.command_topic);
+    out.summary(Level::ERROR,
+                "no driver takes " + params_.driver.command_topic + ", is it started?");
   } else if (!newest_) {
     out.summary(Level::WARN, "no command so far");
   } else if (!hold_.empty()) {

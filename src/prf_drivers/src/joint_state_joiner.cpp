@@ -15,15 +15,17 @@ using prf_core::StampOrder;
 
 std::string refusal_of(const JointSample& sample) {
   const std::size_t count = sample.names.size();
-  if (count == 0) return "it names no joint";
-  if (sample.positions.size() != count) return "it has not as many positions as names";
+  if (count == 0) return "it names no joint, must name those that it has positions of";
+  if (sample.positions.size() != count)
+    return "it has more or fewer positions than names, must have as many";
   if (sample.velocities.size() != count || sample.efforts.size() != count) {
-    return "it has not as many velocities or efforts as names";
+    return "it has more or fewer velocities or efforts than names, must have as many";
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (!prf_core::is_within(sample.positions[i], prf_core::kMaxJointPosition) ||
         !prf_core::is_within(sample.velocities[i], prf_core::kMaxAngularSpeed)) {
-      return prf_core::quoted(sample.names[i]) + " is not finite or beyond all bounds";
+      return prf_core::quoted(sample.names[i]) +
+             " is not finite or beyond all bounds: are its units rad and rad/s?";
     }
   }
   return "";

@@ -17,9 +17,10 @@ void OperatorGate::enable(bool pressed, double now) {
 
 std::string OperatorGate::veto(double now) const {
   if (stopped_) return "stopped, until the service ~reset is called";
-  if (params_.needs_check && !red_) return "the bring-up check has not been made";
+  if (params_.needs_check && !red_)
+    return "the bring-up check has not been made: start check_robot announce:=true";
   if (params_.needs_check && !red_->empty()) return "the bring-up check found: " + *red_;
-  if (hold_) return "the operator holds";
+  if (hold_) return "the operator holds, until the service ~hold is called with false";
   if (!params_.dead_man) return "";
   // A clock that is not a number does not let the arm move.
   const bool fresh = pressed_ && now - *pressed_ <= params_.enable_timeout;

@@ -41,7 +41,7 @@ TEST(OperatorGate, StopsUntilItIsResetWhateverElseAllowsMotion) {
 TEST(OperatorGate, HoldsUntilTheHoldIsTakenOff) {
   OperatorGate gate({false, 0.2, false});
   gate.hold(true);
-  EXPECT_EQ(gate.veto(1.0), "the operator holds");
+  EXPECT_EQ(gate.veto(1.0), "the operator holds, until the service ~hold is called with false");
   gate.hold(false);
   EXPECT_EQ(gate.veto(1.0), "");
 }

@@ -13,7 +13,9 @@ import xml.etree.ElementTree as ElementTree
 import genpy
 import numpy as np
 import rosbag
+import rospy
 import std_msgs.msg
+import visualization_msgs.msg
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import synthetic
@@ -126,6 +128,10 @@ class Export(unittest.TestCase):
 
     def test_layouts_name_what_an_exported_trial_has(self):
         self.write_trial()
+        with rosbag.Bag(self.bag, "a") as bag:
+            post = visualization_msgs.msg.Marker(type=visualization_msgs.msg.Marker.CUBE)
+            post.header.frame_id = "tag_0"
+            bag.write("/obstacles", visualization_msgs.msg.MarkerArray([post]), rospy.Time(1))
         found = {topic: message for topic, _, _, message in self.exported()}
         curves = [(curve.get("topic"), curve.get("field")) for curve in ElementTree.parse(
             os.path.join(PACKAGE, "viewers", "plotjuggler.xml")).iter("curve")]
