@@ -90,8 +90,8 @@ TEST_F(CurrentSkillTest, StaysWhenTheRequestIsRefusedWithTheReadersReason) {
   for (const auto& [name, reason] :
        {std::pair("missing.csv", ": there is no such file"),
         std::pair("bad.csv", ":1: header is 'time,x'"),
-        std::pair("elsewhere.csv", "must be 'world'"), std::pair("fifo", ": is no file"),
-        std::pair(".", ": is no file")}) {
+        std::pair("elsewhere.csv", "must be 'world'"), std::pair("fifo", "must be a file"),
+        std::pair(".", "must be a file")}) {
     const auto refusal = skill.select({name, ++number});
     ASSERT_TRUE(refusal) << name;
     EXPECT_NE(refusal->find(reason), std::string::npos) << *refusal;
