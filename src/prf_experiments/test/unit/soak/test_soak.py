@@ -2,7 +2,6 @@
 import os
 import sys
 import tempfile
-import types
 import unittest
 
 import numpy as np
@@ -84,7 +83,7 @@ class Measures(unittest.TestCase):
         summary["failures"] = ["no recovery <b>"]
         self.assertEqual(soak.conclusion(summary), said + "1 thing is NOT RIGHT, listed below.")
         with tempfile.TemporaryDirectory() as folder:
-            soak.write(folder, "a command", summary, types.SimpleNamespace(samples={}))
+            soak.write(folder, "a command", summary, soak.Watch("/nowhere", None, None))
             with open(os.path.join(folder, "index.html"), encoding="utf-8") as stream:
                 page = stream.read()
         self.assertLess(page.index("<td>no recovery &lt;b&gt;</td>"), page.index("<h2>Memory</h2>"))
