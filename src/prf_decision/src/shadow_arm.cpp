@@ -42,6 +42,10 @@ ShadowArm::ShadowArm(const ArmLimits& limits) : follower_(follower_params(limits
 void ShadowArm::set_goal(const Pose& goal_in_target) {
   if (goal_in_target_ && same(*goal_in_target_, goal_in_target)) return;
   goal_in_target_ = goal_in_target;
+  begin_anew();
+}
+
+void ShadowArm::begin_anew() {
   follower_.reset();
   hands_.clear();
   seen_.clear();
@@ -94,6 +98,7 @@ std::optional<double> ShadowArm::deviation(const TargetForecast& seen) const {
 }
 
 std::optional<double> ShadowArm::observe(const TargetForecast& seen) {
+  if (!seen_.empty() && seen.stamp - seen_.back().stamp > kGap) begin_anew();
   const auto found = deviation(seen);
   if (found) seen_.push_back({seen.stamp, *found});
   while (!seen_.empty() && seen_.front().stamp + kWindow < seen.stamp) seen_.pop_front();

@@ -85,6 +85,28 @@ TEST(ShadowArm, BeginsAnewForAnotherGoal) {
   EXPECT_FALSE(shadow.hand());
 }
 
+TEST(ShadowArm, BeginsAnewWhenTheTargetIsSeenElsewhereAfterAGap) {
+  ShadowArm shadow({0.95, 4.0});
+  shadow.set_goal(Pose());
+  Stamp tick = from_seconds(1);
+  TargetForecast newest = swaying(tick, 0, 1);
+  const auto watch = [&](double aside) {
+    for (int k = 0; k < 100; ++k, tick += kTick) {
+      if (k % 3 == 0) {
+        newest = swaying(tick, 0, 1);
+        for (auto& each : newest.predictions) each.target.pose.position.y() += aside;
+        shadow.observe(newest);
+      }
+      shadow.step(tick, kTick, kLead, &newest, ready_pose());
+    }
+    return shadow.holdable();
+  };
+  EXPECT_LT(watch(0).value(), 1e-3);
+  tick += ShadowArm::kGap + kTick;
+  EXPECT_LT(watch(0.15).value(), 1e-3);
+  EXPECT_GT(watch(0).value(), 0.05);  // without a gap it is the motion of a target that leaps
+}
+
 // Fault 17: the target is no longer seen -> the shadow stands, and says nothing of it
 TEST(ShadowArm, StandsWithoutAForecast) {
   ShadowArm shadow({0.95, 4.0});

@@ -33,6 +33,9 @@ class ShadowArm {
   static constexpr Duration kWindow = std::chrono::seconds(4);
   static constexpr double kShare = 0.95;
   static constexpr std::size_t kLeastImages = 15;
+  // After a longer gap between images of the target it begins anew: its way to where the target is
+  // then says nothing of the motion.
+  static constexpr Duration kGap = std::chrono::milliseconds(500);
 
   explicit ShadowArm(const ArmLimits& limits);
 
@@ -47,7 +50,7 @@ class ShadowArm {
   // Of the hand at the stamp of a forecast whose target is tracked; none: not known.
   [[nodiscard]] std::optional<double> deviation(const TargetForecast& seen) const;
 
-  // deviation(), kept for holdable().
+  // deviation(), kept for holdable(); none after a gap.
   std::optional<double> observe(const TargetForecast& seen);
 
   // What the arm can hold here: the deviation that was not exceeded in kShare of the images of the
@@ -66,6 +69,8 @@ class ShadowArm {
     Stamp stamp{0};
     double deviation = 0;
   };
+
+  void begin_anew();
 
   prf_control::SetpointFollower follower_;
   std::optional<Pose> goal_in_target_;
