@@ -2,6 +2,7 @@
 #include "arm_controller_node.hpp"
 
 #include <algorithm>
+#include <prf_core/require.hpp>
 #include <prf_ros/conversions.hpp>
 
 namespace prf_control {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr const char* kJointStates = "joint_states";
 constexpr const char* kSetpoint = "execution/setpoint";
+constexpr const char* kSpeedScale = "speed_scale";
 constexpr std::uint64_t kArmless = 100;  // messages: other parts of the robot may publish, too
 constexpr std::uint32_t kQueue = 1000;   // messages, 10 s of ticks
 
@@ -59,6 +61,9 @@ ArmControllerNode::ArmControllerNode(ros::NodeHandle& node, const NodeParams& pa
       kQueue, [this](const trajectory_msgs::MultiDOFJointTrajectoryConstPtr& message) {
         on_setpoint(*message);
       });
+  inputs_.subscribe<prf_msgs::SpeedScale>(
+      {kSpeedScale, "prf_msgs/SpeedScale, 0 to 1", 0.0, prf_ros::Presence::kOnDemand}, kQueue,
+      [this](const prf_msgs::SpeedScaleConstPtr& message) { on_speed(*message); });
   // After subscribing: a node that sees this publisher may start, and nothing is missed.
   status_ = node.advertise<prf_msgs::ControlStatus>("control/status", kQueue);
   command_ = node.advertise<trajectory_msgs::JointTrajectory>("joint_command", kQueue);
@@ -102,6 +107,16 @@ void ArmControllerNode::on_setpoint(const trajectory_msgs::MultiDOFJointTrajecto
   const JoinerCounts before = controller_.joiner_counts();
   publish(controller_.add_setpoint(*stamp, to_setpoint(message, params_)), begin);
   note_drop(kSetpoint, before);
+}
+
+void ArmControllerNode::on_speed(const prf_msgs::SpeedScale& message) {
+  const auto stamp = prf_ros::usable_stamp(message.header.stamp);
+  try {
+    prf_core::require(stamp.has_value(), "stamp", message.header.stamp.toSec(), "a time");
+    controller_.scale_speed(*stamp, message.scale);
+  } catch (const std::invalid_argument& error) {
+    inputs_.drop(kSpeedScale, error.what());
+  }
 }
 
 void ArmControllerNode::note_drop(const char* topic, const JoinerCounts& before) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_msgs/SpeedScale.h>
 #include <ros/ros.h>
 
 #include <chrono>
@@ -27,6 +28,7 @@ class ArmControllerNode {
 
   void on_joints(const sensor_msgs::JointState& message);
   void on_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message);
+  void on_speed(const prf_msgs::SpeedScale& message);
   void ignore(const sensor_msgs::JointState& message, const std::string& refusal);
   void publish(const std::vector<ControlResult>& results, Clock::time_point begin);
   void note_drop(const char* topic, const JoinerCounts& before);

@@ -23,6 +23,14 @@ ControlCode code_of(const FollowerStep& step) {
   return slowed ? ControlCode::kLimited : ControlCode::kFollowing;
 }
 
+constexpr double kLeastScale =
+    0.01;  // of the follower; an arm that must not move is held elsewhere
+
+FollowerParams slowed(FollowerParams params, double speed) {
+  params.velocity_scale = std::max(kLeastScale, speed * params.velocity_scale);
+  return params;
+}
+
 const ArmControllerParams& validated(const ArmControllerParams& params) {
   params.validate();
   return params;
@@ -45,8 +53,16 @@ void ArmController::tune(double velocity_scale, double acceleration) {
   FollowerParams tuned = params_.follower;
   tuned.velocity_scale = velocity_scale;
   tuned.acceleration = acceleration;
-  follower_.tune(tuned);
+  tuned.validate();
+  follower_.tune(slowed(tuned, applied_speed_));
   params_.follower = tuned;
+}
+
+void ArmController::apply_speed(prf_core::Stamp tick) {
+  const double speed = speed_.at(tick);
+  if (speed == applied_speed_) return;
+  applied_speed_ = speed;
+  follower_.tune(slowed(params_.follower, speed));
 }
 
 std::vector<ControlResult> ArmController::add_joints(const JointSample& joints) {
@@ -106,7 +122,9 @@ ControlResult ArmController::process(const TickJoiner::Joined& joined) {
     follower_.reset();
     last_stamp_.reset();
     measured_.reset();
+    speed_.reset();
   }
+  apply_speed(joined.primary.stamp);
   const Tick tick = tick_of(joined);
   if (!tick.fault.empty()) ++counts_.faulty_joints;
   if (tick.measured) measured_ = tick.measured;

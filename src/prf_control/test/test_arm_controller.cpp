@@ -266,5 +266,25 @@ TEST(ArmController, FollowsTheSwayOfThePlatformThroughAServo) {
   EXPECT_GT(without, heavy);
 }
 
+TEST(ArmController, GoesSlowerFromTheTickThatIsAnnounced) {
+  ArmController controller(controller_params());
+  controller.scale_speed(100 * kTick, 0.2);
+  double before = 0, after = 0;
+  JointVector measured = home();
+  for (int tick = 0; tick < 200; ++tick) {
+    const auto result = ask(controller, joints_at(tick, measured), beside_home(0.3));
+    measured = result.command->position;
+    const double speed =
+        result.command->velocity.cwiseQuotient(jaco_kinematics::jaco_joint_limits().velocity)
+            .cwiseAbs()
+            .maxCoeff();
+    if (tick < 100) before = std::max(before, speed);
+    if (tick > 120) after = std::max(after, speed);  // braking takes its time
+  }
+  EXPECT_GT(before, 0.5);
+  EXPECT_LT(after, 0.2);
+  EXPECT_THROW(controller.scale_speed(prf_core::Stamp(0), 1.1), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace prf_control

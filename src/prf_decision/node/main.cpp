@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_msgs/SpeedScale.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
@@ -64,6 +65,9 @@ class DecisionNode {
     inputs_.subscribe<prf_msgs::ControlStatus>(
         {"control/status", "prf_msgs/ControlStatus, one for each tick", tick_rate}, kQueue,
         [this](const prf_msgs::ControlStatusConstPtr& message) { on_control_status(*message); });
+    inputs_.subscribe<prf_msgs::SpeedScale>(
+        {"speed_scale", "prf_msgs/SpeedScale, 0 to 1", 0.0, prf_ros::Presence::kOnDemand}, kQueue,
+        [this](const prf_msgs::SpeedScaleConstPtr& message) { on_speed_scale(*message); });
   }
 
   void tune(const ReconfigurableParams::Values& values) {
@@ -115,6 +119,14 @@ class DecisionNode {
     const ControlReport report = to_core(message);
     account("control/status", report.stamp, gate_.push_control_report(report));
     process();
+  }
+
+  void on_speed_scale(const prf_msgs::SpeedScale& message) {
+    try {
+      executive_.scale_speed(prf_ros::to_core(message.header.stamp), message.scale);
+    } catch (const std::invalid_argument& error) {
+      refuse("speed_scale", error.what());
+    }
   }
 
   void refuse(const std::string& topic, const std::string& reason) {

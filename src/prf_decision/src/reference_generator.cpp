@@ -62,7 +62,9 @@ void ReferenceGenerator::move_cursor(const ReferenceInput& input) {
   if (!moves_cursor(input.state)) return;
   const auto direction =
       input.state == ExecutionState::kForward ? Direction::kForward : Direction::kBack;
-  const double next = advance_cursor(*plan_, cursor_, direction, input.since_last_tick);
+  const auto slowed = std::chrono::duration_cast<Duration>(input.speed * input.since_last_tick);
+  const double next = advance_cursor(*plan_, cursor_, direction,
+                                     input.speed < 1.0 ? slowed : input.since_last_tick);
   if (!input.follows && (direction == Direction::kForward || leads_away(input, next))) return;
   cursor_ = next;
 }
@@ -98,10 +100,23 @@ MovingPose ReferenceGenerator::hand_on_plan(Direction direction) const {
                       plan_->goal_in_target, params_.view_angle);
 }
 
+// What the hand has of the target's velocity is not slowed down.
+MovingPose ReferenceGenerator::moving(Direction direction, double speed) const {
+  MovingPose hand = hand_on_plan(direction);
+  if (speed >= 1.0) return hand;
+  const MovingPose standing = hand_on_plan(Direction::kStand);
+  const auto slowed = [speed](const Eigen::Vector3d& fast, const Eigen::Vector3d& still) {
+    return Eigen::Vector3d(still + speed * (fast - still));
+  };
+  hand.linear_velocity = slowed(hand.linear_velocity, standing.linear_velocity);
+  hand.angular_velocity = slowed(hand.angular_velocity, standing.angular_velocity);
+  return hand;
+}
+
 std::optional<MovingPose> ReferenceGenerator::reference(const ReferenceInput& input) const {
-  if (input.state == ExecutionState::kForward) return hand_on_plan(Direction::kForward);
+  if (input.state == ExecutionState::kForward) return moving(Direction::kForward, input.speed);
   if (moves_cursor(input.state)) {
-    return hand_on_plan(cursor_ > 0 ? Direction::kBack : Direction::kStand);
+    return moving(cursor_ > 0 ? Direction::kBack : Direction::kStand, input.speed);
   }
   if (input.state == ExecutionState::kPause && is_relative_to_target()) {
     return hand_on_plan(Direction::kStand);
@@ -121,10 +136,13 @@ ReferenceResult ReferenceGenerator::step(const ReferenceInput& input) {
   if (input.hand && begins_anew) setpoint_ = input.hand;
   ReferenceResult result;
   bool tracked = false;
+  CatchUpParams catch_up = params_.catch_up;
+  catch_up.linear *= input.speed;
+  catch_up.angular *= input.speed;
   if (wanted) {
-    result.setpoint =
-        setpoint_ ? limited_setpoint(*setpoint_, *wanted, params_.catch_up, input.since_last_tick)
-                  : *wanted;
+    result.setpoint = setpoint_
+                          ? limited_setpoint(*setpoint_, *wanted, catch_up, input.since_last_tick)
+                          : *wanted;
     setpoint_ = result.setpoint->pose;
     result.at_start = cursor_ == 0 && input.hand_on_goal &&
                       are_near(*setpoint_, wanted->pose, params_.tracking_tolerance);

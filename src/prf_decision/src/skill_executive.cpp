@@ -262,7 +262,7 @@ std::optional<MovingPose> SkillExecutive::move(const Tick& tick, bool violation)
   const ReferenceResult result =
       reference_.step({tick.stamp, tick.stamp - *last_tick_, fsm_.published_state(), tick.hand,
                        followed_forecast(tick), violation, !following_.is_off(),
-                       following_.is_on_goal(), look(tick)});
+                       following_.is_on_goal(), look(tick), speed_.at(tick.stamp)});
   if (result.at_start && !plans_.demonstration().is_returning()) {
     fsm_.fire(tick.stamp, Event::kAtStart, "", params_.dwell_time);
   }

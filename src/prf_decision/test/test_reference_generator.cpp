@@ -77,5 +77,27 @@ TEST(ReferenceGenerator, HoldsInTrackingAtAViolationOrWithoutAForecast) {
   }
 }
 
+TEST(ReferenceGenerator, SlowsTheCursorAndItsVelocityAlike) {
+  const auto after_a_second = [](double speed) {
+    ReferenceGenerator generator(usual_params().reference);
+    generator.update_plan(planned(forecast_of(kStart, kTarget, {0, 0, 0})));
+    ReferenceResult result;
+    for (int tick = 0; tick < 100; ++tick) {
+      ReferenceInput input = input_at(tick, ExecutionState::kForward);
+      input.hand = straight_skill().poses[0];
+      input.speed = speed;
+      result = generator.step(input);
+    }
+    return std::pair(generator.cursor(), result.setpoint->linear_velocity.norm());
+  };
+  const auto [whole, fast] = after_a_second(1.0);
+  const auto [share, slow] = after_a_second(0.25);
+  EXPECT_NEAR(share, 0.25 * whole, 1e-6);
+  EXPECT_NEAR(slow, 0.25 * fast, 1e-6);
+  const auto [none, standing] = after_a_second(0.0);
+  EXPECT_EQ(none, 0.0);
+  EXPECT_EQ(standing, 0.0);
+}
+
 }  // namespace
 }  // namespace prf_decision

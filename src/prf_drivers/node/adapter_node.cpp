@@ -3,9 +3,12 @@
 
 #include <prf_msgs/topics.h>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <prf_core/quoted.hpp>
 #include <prf_ros/conversions.hpp>
+
+#include "picked.hpp"
 
 namespace prf_drivers {
 namespace {
@@ -13,6 +16,9 @@ namespace {
 namespace topics = prf_msgs::topics;
 
 constexpr std::uint32_t kQueue = 1000;  // messages
+// From the tick at which a speed is found to the first that has it: the others know it by then.
+constexpr prf_core::Duration kAhead = std::chrono::milliseconds(50);
+constexpr double kSteps = 20.0;  // a speed is announced in twentieths, rounded down
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -20,29 +26,21 @@ std::string listed(const std::vector<std::string>& names) {
   return prf_core::quoted(text);
 }
 
-// Values of `joints` in their order; none: a joint is not named, or has no value.
-std::optional<Eigen::VectorXd> picked(const std::vector<std::string>& joints,
-                                      const std::vector<std::string>& names,
-                                      const std::vector<double>& values) {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(joints.size()));
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const auto found = std::find(names.begin(), names.end(), joints[i]);
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    if (found == names.end() || index >= values.size()) return std::nullopt;
-    result[static_cast<Eigen::Index>(i)] = values[index];
-  }
-  return result;
-}
-
 }  // namespace
 
 AdapterNode::AdapterNode(ros::NodeHandle& node, const AdapterNodeParams& params)
     : params_(params),
-      adapter_(params.adapter),
+      guards_(std::make_shared<MotionGuards>(params.guards)),
+      adapter_(params.adapter, guards_),
       output_(make_output(node, params)),
       inputs_(node, &diagnostics_),
-      operator_(inputs_, params, [this] { adapter_.set_veto(operator_.veto()); }) {
-  adapter_.set_veto(operator_.veto());
+      operator_(
+          inputs_, params, [this] { obey_operator(); }, [this] { guards_->reset(); }),
+      speed_scale_(node.advertise<prf_msgs::SpeedScale>(topics::kSpeedScale, kQueue, true)) {
+  for (const std::string& pair : guards_->ignored()) {
+    ROS_INFO("%s are near each other in the ready posture: not looked at", pair.c_str());
+  }
+  obey_operator();
   diagnostics_.setHardwareID("none");
   diagnostics_.add("driver", this, &AdapterNode::diagnose);
   const double rate = 1.0 / params.driver.period;
@@ -54,6 +52,10 @@ AdapterNode::AdapterNode(ros::NodeHandle& node, const AdapterNodeParams& params)
        "trajectory_msgs/JointTrajectory with " + listed(params.driver.joints), rate},
       kQueue,
       [this](const trajectory_msgs::JointTrajectoryConstPtr& message) { on_command(*message); });
+  inputs_.subscribe<prf_msgs::ExecutionProgress>(
+      {topics::kExecutionProgress, "prf_msgs/ExecutionProgress", 0.0, prf_ros::Presence::kOnDemand},
+      kQueue,
+      [this](const prf_msgs::ExecutionProgressConstPtr& message) { on_progress(*message); });
   if (ros::Time::isSimTime()) {
     timer_ = node.createTimer(ros::Duration(params.driver.period),
                               [this](const ros::TimerEvent&) { on_period(); });
@@ -70,7 +72,25 @@ void AdapterNode::on_joints(const sensor_msgs::JointState& message) {
     inputs_.drop(topics::kJointStates, stamp ? "without a joint of the arm" : "unusable stamp");
     return;
   }
-  take(adapter_.add_measured(*stamp, *measured));
+  Measured joints(*measured);
+  if (const auto effort = picked(params_.driver.joints, message.name, message.effort)) {
+    joints.effort = *effort;
+  }
+  const std::size_t told = std::min(message.name.size(), message.position.size());
+  for (std::size_t i = 0; i < told; ++i) {
+    if (std::isfinite(message.position[i])) joints.elsewhere[message.name[i]] = message.position[i];
+  }
+  take(adapter_.add_measured(*stamp, joints));
+}
+
+void AdapterNode::on_progress(const prf_msgs::ExecutionProgress& message) {
+  const auto stamp = prf_ros::usable_stamp(message.header.stamp);
+  if (stamp && message.state == prf_msgs::ExecutionProgress::FORWARD) guards_->goes_forward(*stamp);
+}
+
+void AdapterNode::obey_operator() {
+  adapter_.set_veto(operator_.veto());
+  adapter_.set_speed(operator_.speed());
 }
 
 void AdapterNode::on_command(const trajectory_msgs::JointTrajectory& message) {
@@ -101,8 +121,24 @@ void AdapterNode::take(const std::vector<DriverCommand>& decided) {
     newest_ = command;
     decided_at_ = ros::SteadyTime::now();
     decided_at_simulated_ = ros::Time::now();
+    announce_speed(command);
     if (params_.pace == Pace::kTick) send(command);
   }
+}
+
+// While the arm is held the speed does not rise.
+void AdapterNode::announce_speed(const DriverCommand& command) {
+  if (!command.hold.empty() && announced_ && command.speed >= *announced_) return;
+  const double scale = std::floor(kSteps * command.speed + 1e-9) / kSteps;
+  const bool again = command.stamp < announced_at_;  // a new run
+  announced_at_ = command.stamp;
+  if (!again && announced_ == scale) return;
+  announced_ = scale;
+  prf_msgs::SpeedScale message;
+  message.header.stamp = prf_ros::to_ros_time(command.stamp + kAhead);
+  message.scale = scale;
+  message.reason = command.slowed;
+  speed_scale_.publish(message);
 }
 
 double AdapterNode::silent_for() const {
@@ -111,8 +147,8 @@ double AdapterNode::silent_for() const {
 }
 
 void AdapterNode::on_period() {
-  adapter_.set_veto(operator_.veto());  // a switch that is no longer heard
-  operator_.tell(!newest_ ? -1 : hold_.empty() ? 0 : 2);
+  obey_operator();  // a switch may be heard no longer
+  operator_.tell(code_);
   if (!newest_) return;
   if (silent_for() <= params_.adapter.command_timeout) {
     if (params_.pace == Pace::kTimer) send(*newest_);
@@ -129,7 +165,15 @@ void AdapterNode::send(const DriverCommand& command) {
       ROS_WARN("the arm is held: %s", command.hold.c_str());
     }
   }
+  if (!command.slowed.empty() && slowed_.empty() && command.hold.empty() &&
+      told_.is_due("slowed")) {
+    ROS_WARN("the arm goes at %.0f %% of its speed: %s", 100.0 * command.speed,
+             command.slowed.c_str());
+  }
   hold_ = command.hold;
+  slowed_ = command.slowed;
+  code_ = command.code;
+  operator_.tell(code_);
   output_->send(command);
   ++sent_;
 }
@@ -143,11 +187,14 @@ void AdapterNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& out) {
     out.summary(Level::WARN, "no command so far");
   } else if (!hold_.empty()) {
     out.summary(Level::WARN, "the arm is held: " + hold_);
+  } else if (!slowed_.empty()) {
+    out.summary(Level::OK, "the arm follows slowly: " + slowed_);
   } else {
     out.summary(Level::OK, "the arm follows");
   }
   inputs_.report(out);
   const AdapterCounts& counts = adapter_.counts();
+  out.add("speed [%]", 100.0 * announced_.value_or(1.0));
   out.add("ticks", counts.ticks);
   out.add("messages to the driver", sent_);
   out.add("ticks held", counts.held);

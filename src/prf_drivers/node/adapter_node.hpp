@@ -3,6 +3,8 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <prf_msgs/ExecutionProgress.h>
+#include <prf_msgs/SpeedScale.h>
 #include <ros/ros.h>
 #include <ros/steady_timer.h>
 #include <sensor_msgs/JointState.h>
@@ -28,8 +30,12 @@ class AdapterNode {
  private:
   void on_joints(const sensor_msgs::JointState& message);
   void on_command(const trajectory_msgs::JointTrajectory& message);
+  void on_progress(const prf_msgs::ExecutionProgress& message);
+  void obey_operator();
   void take(const std::vector<DriverCommand>& decided);
   void send(const DriverCommand& command);
+  // To controller and decision, whenever the allowed speed changes.
+  void announce_speed(const DriverCommand& command);
   // Each period: the newest command in the pace of a timer; braking and holding when ticks stay
   // out.
   void on_period();
@@ -39,6 +45,7 @@ class AdapterNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& out);
 
   AdapterNodeParams params_;
+  std::shared_ptr<MotionGuards> guards_;
   CommandAdapter adapter_;
   std::unique_ptr<DriverOutput> output_;
   diagnostic_updater::Updater diagnostics_;
@@ -49,7 +56,11 @@ class AdapterNode {
   std::optional<DriverCommand> newest_;
   ros::SteadyTime decided_at_;
   ros::Time decided_at_simulated_;
-  std::string hold_;
+  ros::Publisher speed_scale_;
+  std::optional<double> announced_;
+  prf_core::Stamp announced_at_{0};
+  std::string hold_, slowed_;
+  MotionCode code_ = MotionCode::kNoCommand;
   unsigned long sent_ = 0;
   prf_ros::WallThrottles told_;
 };

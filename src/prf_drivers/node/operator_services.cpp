@@ -27,8 +27,11 @@ bool call(const std::string& name) {
 }  // namespace
 
 OperatorServices::OperatorServices(prf_ros::InputMonitor& inputs, const AdapterNodeParams& params,
-                                   std::function<void()> changed)
-    : driver_(params.driver), gate_(params.operators), changed_(std::move(changed)) {
+                                   std::function<void()> changed, std::function<void()> reset)
+    : driver_(params.driver),
+      gate_(params.operators),
+      changed_(std::move(changed)),
+      reset_(std::move(reset)) {
   ros::NodeHandle node("~");
   // The switch has no stamp: what counts is when it comes.
   const auto presence =
@@ -45,6 +48,17 @@ OperatorServices::OperatorServices(prf_ros::InputMonitor& inputs, const AdapterN
         gate_.checked(message->data.empty() ? "" : prf_core::quoted(message->data));
         changed_();
       });
+  const std::string speed = node.resolveName("speed");
+  inputs.subscribe<std_msgs::Float64>(
+      {speed, "std_msgs/Float64, 0 to 1", 0.0, prf_ros::Presence::kOnDemand}, kQueue,
+      [this, &inputs, speed](const std_msgs::Float64ConstPtr& message) {
+        if (message->data >= 0.0 && message->data <= 1.0) {
+          speed_ = message->data;
+          changed_();
+        } else {
+          inputs.drop(speed, "not within 0 to 1");
+        }
+      });
   status_ = node.advertise<std_msgs::Int8>("status", kQueue, true);
   services_ = {node.advertiseService("stop", &OperatorServices::on_stop, this),
                node.advertiseService("reset", &OperatorServices::on_reset, this),
@@ -53,7 +67,7 @@ OperatorServices::OperatorServices(prf_ros::InputMonitor& inputs, const AdapterN
 
 std::string OperatorServices::veto() const { return gate_.veto(now()); }
 
-void OperatorServices::tell(int code) {
+void OperatorServices::tell(MotionCode code) {
   if (code == told_) return;
   told_ = code;
   std_msgs::Int8 message;
@@ -88,6 +102,7 @@ bool OperatorServices::on_stop(std_srvs::Trigger::Request&, std_srvs::Trigger::R
 bool OperatorServices::on_reset(std_srvs::Trigger::Request&,
                                 std_srvs::Trigger::Response& response) {
   gate_.reset();
+  reset_();
   response.message = call_driver(false);
   changed_();
   response.success = 1;

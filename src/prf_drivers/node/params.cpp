@@ -11,6 +11,9 @@
 namespace prf_drivers {
 namespace {
 
+// From a tick until execution/progress of it is known here.
+constexpr prf_core::Duration kKnownWithin = std::chrono::milliseconds(50);
+
 // Words separated by spaces.
 std::vector<std::string> words(const std::string& text) {
   std::istringstream stream(text);
@@ -59,6 +62,37 @@ Driver load_driver(const ros::NodeHandle& node) {
   return driver;
 }
 
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// The block `guards` beside the nodes; config/guards has what each means.
+GuardsParams load_guards(const ros::NodeHandle& node, const Driver& driver) {
+  prf_ros::PrivateParameters values{ros::NodeHandle(node, "guards")};
+  GuardsParams guards;
+  guards.joints = driver.joints;
+  guards.start.ready = vector_of(values.numbers("ready"));
+  guards.start.distance = values.number("start_distance");
+  guards.start.speed = values.number("start_speed");
+  guards.start.known_within = kKnownWithin;
+  guards.effort.lower = vector_of(values.numbers("effort_lower"));
+  guards.effort.upper = vector_of(values.numbers("effort_upper"));
+  guards.effort.patience = values.number("effort_patience");
+  guards.base_link = values.text("base_link");
+  guards.workspace = values.numbers("workspace");
+  guards.forbidden = values.numbers("forbidden");
+  guards.self_collision = values.flag("self_collision");
+  guards.joint_bounds = values.flag("joint_bounds");
+  guards.clearance.stop_distance = values.number("stop_distance");
+  guards.clearance.slow_distance = values.number("slow_distance");
+  values.refuse_unknown();
+  if (guards.needs_urdf()) {
+    const bool given = node.getParam("robot_description", guards.urdf);
+    prf_core::require(given, "robot_description", "''", "set: the guards need it");
+  }
+  return guards;
+}
+
 bool takes_positions(Speaks speaks) {
   return speaks == Speaks::kPositionGroup || speaks == Speaks::kTrajectory;
 }
@@ -68,6 +102,7 @@ bool takes_positions(Speaks speaks) {
 AdapterNodeParams load_adapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   AdapterNodeParams params;
   params.driver = load_driver(node);
+  params.guards = load_guards(node, params.driver);
   prf_ros::PrivateParameters values(private_node);
   params.adapter.takes =
       takes_positions(params.driver.speaks) ? Takes::kPositions : Takes::kVelocities;
@@ -79,18 +114,36 @@ AdapterNodeParams load_adapter(const ros::NodeHandle& node, const ros::NodeHandl
   params.adapter.braking = values.number("braking");
   const std::vector<double> limits =
       values.numbers("max_velocity", static_cast<int>(params.driver.joints.size()));
-  params.adapter.max_velocity =
-      Eigen::Map<const Eigen::VectorXd>(limits.data(), static_cast<Eigen::Index>(limits.size()));
+  params.adapter.max_velocity = vector_of(limits);
   params.pace =
       one_of<Pace>("pace", values.text("pace"), {{"tick", Pace::kTick}, {"timer", Pace::kTimer}});
   params.horizon = values.number("horizon");
   params.operators.dead_man = values.flag("dead_man");
   params.operators.enable_timeout = values.number("enable_timeout");
   params.operators.needs_check = values.flag("needs_check");
+  params.dry_run = values.flag("dry_run");
   values.refuse_unknown();
   params.adapter.validate();
   params.operators.validate();
   prf_core::require_between("horizon", params.horizon, params.driver.period, 1.0, "s");
+  if (params.dry_run) {
+    params.driver.command_topic = ros::names::append("/rehearsal", params.driver.command_topic);
+    params.driver.stop_service.clear();
+    params.driver.start_service.clear();
+  }
+  return params;
+}
+
+StandInNodeParams load_stand_in(const ros::NodeHandle& private_node) {
+  prf_ros::PrivateParameters values(private_node);
+  StandInNodeParams params;
+  params.joints = words(values.text("joints"));
+  prf_core::require(!params.joints.empty(), "joints", "''", "names separated by spaces");
+  params.stand_in.delay = values.number("delay");
+  params.stand_in.max_velocity =
+      vector_of(values.numbers("max_velocity", static_cast<int>(params.joints.size())));
+  values.refuse_unknown();
+  params.stand_in.validate();
   return params;
 }
 

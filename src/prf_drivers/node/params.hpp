@@ -8,7 +8,9 @@
 
 #include "prf_drivers/command_adapter.hpp"
 #include "prf_drivers/joint_state_joiner.hpp"
+#include "prf_drivers/motion_guards.hpp"
 #include "prf_drivers/operator_gate.hpp"
+#include "prf_drivers/stand_in_arm.hpp"
 
 namespace prf_drivers {
 
@@ -35,8 +37,10 @@ struct AdapterNodeParams {
   Driver driver;
   AdapterParams adapter;
   OperatorParams operators;
+  GuardsParams guards;
   Pace pace = Pace::kTick;
   double horizon = 0.0;  // s, time_from_start of a trajectory's point
+  bool dry_run = false;  // the driver is sent nothing: all goes to rehearsal<command_topic>
 };
 
 struct JoinerNodeParams {
@@ -47,10 +51,16 @@ struct JoinerNodeParams {
   double velocity_unit = 0.0;             // rad/s, what 1 means in the driver's velocities
 };
 
+struct StandInNodeParams {
+  std::vector<std::string> joints;
+  StandInParams stand_in;
+};
+
 // Each throws std::invalid_argument with name, value and bound.
 [[nodiscard]] AdapterNodeParams load_adapter(const ros::NodeHandle& node,
                                              const ros::NodeHandle& private_node);
 [[nodiscard]] JoinerNodeParams load_joiner(const ros::NodeHandle& node,
                                            const ros::NodeHandle& private_node);
+[[nodiscard]] StandInNodeParams load_stand_in(const ros::NodeHandle& private_node);
 
 }  // namespace prf_drivers

@@ -41,14 +41,20 @@ void AdapterParams::validate() const {
   }
 }
 
-CommandAdapter::CommandAdapter(const AdapterParams& params)
+CommandAdapter::CommandAdapter(const AdapterParams& params, std::shared_ptr<MotionGuard> guards)
     : params_(validated(params)),
+      guards_(std::move(guards)),
       joiner_({prf_core::from_seconds(params.command_timeout)}),
       position_(VectorXd::Zero(params.max_velocity.size())),
       velocity_(VectorXd::Zero(params.max_velocity.size())) {}
 
+void CommandAdapter::set_speed(double speed) {
+  prf_core::require_between("speed", speed, 0.0, 1.0);
+  speed_ = speed;
+}
+
 std::vector<DriverCommand> CommandAdapter::add_measured(prf_core::Stamp stamp,
-                                                        const VectorXd& measured) {
+                                                        const Measured& measured) {
   const prf_core::StampOrder order = joiner_.advance(stamp);
   if (!prf_core::is_accepted(order)) return {};
   if (order == prf_core::StampOrder::kBackwardJump) {
@@ -56,6 +62,7 @@ std::vector<DriverCommand> CommandAdapter::add_measured(prf_core::Stamp stamp,
     history_.clear();
     begun_ = false;
     velocity_.setZero();
+    if (guards_) guards_->reset();
   }
   joiner_.push_primary(stamp, measured);
   return decided();
@@ -87,12 +94,12 @@ std::optional<DriverCommand> CommandAdapter::process(const Joiner::Joined& tick)
     if (held) held->stamp = tick.stamp;
     return held;
   }
-  follow(*tick.secondary, tick.primary, tick.stamp);
-  return DriverCommand{tick.stamp, position_, velocity_, ""};
+  return follow(*tick.secondary, tick.primary, tick.stamp);
 }
 
 std::string CommandAdapter::reason_to_hold(const Joiner::Joined& tick) const {
   if (!veto_.empty()) return veto_;
+  if (!(speed_ > 0.0)) return "the operator's speed is 0";
   if (!tick.secondary) return "no command for this tick";
   const Command& command = *tick.secondary;
   if (!command.refusal.empty()) return command.refusal;
@@ -102,11 +109,11 @@ std::string CommandAdapter::reason_to_hold(const Joiner::Joined& tick) const {
       !prf_core::is_within(command.velocity, prf_core::kMaxAngularSpeed)) {
     return "the command is not finite or beyond all bounds";
   }
-  if (tick.primary.size() != joints ||
-      !prf_core::is_within(tick.primary, prf_core::kMaxJointPosition)) {
+  const VectorXd& measured = tick.primary.position;
+  if (measured.size() != joints || !prf_core::is_within(measured, prf_core::kMaxJointPosition)) {
     return "the measured joints are not known";
   }
-  const double away = distance(command.position, tick.primary);
+  const double away = distance(command.position, measured);
   if (away <= params_.max_distance) return "";
   std::ostringstream text;
   text << "the command is " << away << " rad from the measured joints, at most "
@@ -137,23 +144,54 @@ void CommandAdapter::remember(prf_core::Stamp stamp, const VectorXd& position) {
   while (history_.size() > 2 && history_[1].stamp < then) history_.pop_front();
 }
 
-void CommandAdapter::follow(const Command& command, const VectorXd& measured,
-                            prf_core::Stamp stamp) {
+CommandAdapter::Motion CommandAdapter::motion(const Command& command, const VectorXd& measured,
+                                              prf_core::Stamp stamp, double speed) const {
   const VectorXd& limit = params_.max_velocity;
-  remember(stamp, command.position);
+  const auto slowed = [&limit, speed](const VectorXd& velocity) -> VectorXd {
+    const VectorXd clamped = velocity.cwiseMax(-limit).cwiseMin(limit);
+    const double share = clamped.cwiseAbs().cwiseQuotient(limit).maxCoeff();
+    return share > speed ? VectorXd(speed / share * clamped) : clamped;
+  };
   if (params_.takes == Takes::kVelocities) {
     const VectorXd error = error_between(expected_at(stamp), measured);
-    velocity_ = (command.velocity + params_.gain * error).cwiseMax(-limit).cwiseMin(limit);
-    position_ = command.position;
-  } else {
-    // What begins anew begins at the measured joints; so it does in another turn of a joint.
-    const bool turned = (command.position - position_).cwiseAbs().maxCoeff() > params_.max_distance;
-    if (!begun_ || turned) position_ = measured;
-    const VectorXd step = params_.period * limit;
-    position_ += (command.position - position_).cwiseMax(-step).cwiseMin(step);
-    velocity_ = command.velocity.cwiseMax(-limit).cwiseMin(limit);
+    return {command.position, slowed(command.velocity + params_.gain * error)};
   }
+  // What begins anew begins at the measured joints; so it does in another turn of a joint.
+  const bool turned = (command.position - position_).cwiseAbs().maxCoeff() > params_.max_distance;
+  const VectorXd from = !begun_ || turned ? measured : position_;
+  const VectorXd step = params_.period * slowed((command.position - from) / params_.period);
+  return {from + step, slowed(command.velocity)};
+}
+
+VectorXd CommandAdapter::rest_after(const Motion& motion, const VectorXd& measured) const {
+  VectorXd rest = measured + (params_.delay + params_.period) * motion.velocity;
+  if (params_.takes == Takes::kPositions) rest = motion.position;
+  return rest + motion.velocity.cwiseProduct(motion.velocity.cwiseAbs()) / (2.0 * params_.braking);
+}
+
+DriverCommand CommandAdapter::follow(const Command& command, const Measured& measured,
+                                     prf_core::Stamp stamp) {
+  remember(stamp, command.position);
+  Motion sent = motion(command, measured.position, stamp, speed_);
+  Allowance allowed;
+  if (guards_) {
+    allowed = guards_->allow({stamp, measured, rest_after(sent, measured.position)});
+    if (allowed.hold) {
+      // Before the first motion the arm is held where it is.
+      if (!begun_) position_ = measured.position;
+      begun_ = true;
+      DriverCommand held = *hold(allowed.why);
+      held.stamp = stamp;
+      held.code = allowed.code;
+      return held;
+    }
+  }
+  const double speed = std::min(speed_, allowed.speed);
+  if (!(speed >= speed_)) sent = motion(command, measured.position, stamp, speed);
+  position_ = sent.position;
+  velocity_ = sent.velocity;
   begun_ = true;
+  return {stamp, position_, velocity_, "", allowed.code, speed, allowed.why};
 }
 
 std::optional<DriverCommand> CommandAdapter::hold(const std::string& why) {
@@ -161,7 +199,8 @@ std::optional<DriverCommand> CommandAdapter::hold(const std::string& why) {
   ++counts_.held;
   brake();
   history_.clear();
-  return DriverCommand{prf_core::Stamp{0}, position_, velocity_, why};
+  return DriverCommand{prf_core::Stamp{0}, position_, velocity_, why,
+                       MotionCode::kHeld,  speed_,    ""};
 }
 
 void CommandAdapter::brake() {

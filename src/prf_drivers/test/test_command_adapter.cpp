@@ -211,5 +211,90 @@ TEST(CommandAdapter, RefusesParametersBeyondTheirBounds) {
   refused([](AdapterParams& wrong) { wrong.max_velocity[1] = 0.0; });
 }
 
+class FixedGuard : public MotionGuard {
+ public:
+  Allowance allow(const Intended& intended) override {
+    rest = intended.rest;
+    return allowance;
+  }
+  void reset() override { ++resets; }
+
+  Allowance allowance;
+  Eigen::VectorXd rest;
+  int resets = 0;
+};
+
+TEST(CommandAdapter, SlowsAllJointsDownAlike) {
+  for (const Takes takes : {Takes::kVelocities, Takes::kPositions}) {
+    CommandAdapter adapter(params(takes));
+    adapter.set_speed(0.5);
+    const auto sent = step(adapter, 0, two(0, 0), two(0, 0), two(0.6, 0.3));
+    ASSERT_EQ(sent.size(), 1U);
+    EXPECT_NEAR(sent[0].velocity[0], 0.3, 1e-12);
+    EXPECT_NEAR(sent[0].velocity[1], 0.15, 1e-12);
+    const auto next = step(adapter, 1, two(0, 0), two(0.006, 0.003), two(0.6, 0.3));
+    EXPECT_NEAR(next[0].position[0], takes == Takes::kPositions ? 0.003 : 0.006, 1e-12);
+    EXPECT_EQ(next[0].speed, 0.5);
+  }
+}
+
+TEST(CommandAdapter, HoldsAtSpeedZeroAndRefusesOtherSpeeds) {
+  CommandAdapter adapter(params(Takes::kVelocities));
+  (void)step(adapter, 0, two(0, 0), two(0, 0), two(0.02, 0));
+  adapter.set_speed(0.0);
+  const auto sent = step(adapter, 1, two(0, 0), two(0, 0), two(0.6, 0));
+  EXPECT_EQ(sent[0].hold, "the operator's speed is 0");
+  EXPECT_EQ(sent[0].speed, 0.0);
+  for (const double bad : {-0.1, 1.1, kNan}) {
+    EXPECT_THROW(adapter.set_speed(bad), std::invalid_argument);
+  }
+}
+
+TEST(CommandAdapter, AsksItsGuardsWhereTheArmComesToRest) {
+  auto guard = std::make_shared<FixedGuard>();
+  CommandAdapter adapter(params(Takes::kVelocities), guard);
+  (void)step(adapter, 0, two(1.0, 0), two(1.0, 0), two(0.4, -0.4));
+  // A period and the delay, then braking: 0.04 s * 0.4 + 0.4^2 / (2 * 4).
+  EXPECT_NEAR(guard->rest[0], 1.036, 1e-12);
+  EXPECT_NEAR(guard->rest[1], -0.036, 1e-12);
+}
+
+TEST(CommandAdapter, ObeysItsGuards) {
+  auto guard = std::make_shared<FixedGuard>();
+  CommandAdapter adapter(params(Takes::kVelocities), guard);
+  guard->allowance = {0.25, "near a wall", false, MotionCode::kSlowsForCollision};
+  const auto slow = step(adapter, 0, two(0, 0), two(0, 0), two(0.6, 0));
+  EXPECT_NEAR(slow[0].velocity[0], 0.15, 1e-12);
+  EXPECT_EQ(slow[0].code, MotionCode::kSlowsForCollision);
+  EXPECT_EQ(slow[0].slowed, "near a wall");
+  guard->allowance = {0.0, "at a wall", true, MotionCode::kHaltsForCollision};
+  for (int i = 1; i < 6; ++i) {
+    const auto held = step(adapter, i, two(0, 0), two(0, 0), two(0.6, 0));
+    EXPECT_EQ(held[0].hold, "at a wall");
+    EXPECT_EQ(held[0].code, MotionCode::kHaltsForCollision);
+    EXPECT_EQ(held[0].stamp, tick(i));
+    EXPECT_EQ(held[0].velocity[0], std::max(0.0, 0.15 - 0.04 * i));
+  }
+}
+
+// Fault 44: a guard forbids the first motion of all -> a driver of positions is sent where the arm
+// is
+TEST(CommandAdapter, HoldsAnArmThatMayNotBeginWhereItIs) {
+  auto guard = std::make_shared<FixedGuard>();
+  CommandAdapter adapter(params(Takes::kPositions), guard);
+  guard->allowance = {0.0, "not ready", true, MotionCode::kHeld};
+  const auto held = step(adapter, 0, two(1.5, -0.7), two(1.51, -0.7), two(0.6, 0));
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_TRUE(held[0].position == two(1.5, -0.7) && held[0].velocity == two(0, 0));
+}
+
+TEST(CommandAdapter, ResetsItsGuardsWithANewRun) {
+  auto guard = std::make_shared<FixedGuard>();
+  CommandAdapter adapter(params(Takes::kVelocities), guard);
+  for (int i = 100; i < 110; ++i) (void)step(adapter, i, two(0, 0), two(0, 0), two(0.1, 0));
+  for (int i = 0; i < 5; ++i) (void)step(adapter, i, two(0, 0), two(0, 0), two(0.1, 0));
+  EXPECT_EQ(guard->resets, 1);
+}
+
 }  // namespace
 }  // namespace prf_drivers

@@ -6,6 +6,8 @@
 #include <sensor_msgs/Image.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
+#include <prf_core/bounds.hpp>
 #include <prf_ros/conversions.hpp>
 #include <prf_ros/input_monitor.hpp>
 #include <prf_ros/private_parameters.hpp>
@@ -84,6 +86,8 @@ class TagDetectorNode {
   void detect_joined() {
     while (const auto joined = join_.pop()) {
       const std_msgs::Header& header = joined->first->header;
+      std_msgs::Header exposed = header;
+      exposed.stamp = prf_ros::to_ros_time(exposure_of(prf_ros::to_core(header.stamp)));
       std::vector<TagDetection> found;
       try {
         found = detect(*joined);
@@ -93,13 +97,18 @@ class TagDetectorNode {
           ROS_WARN("image at %.3f s refused: %s", header.stamp.toSec(), error.what());
         }
       }
-      const auto message = to_message(header, params_.detector.family, found);
+      const auto message = to_message(exposed, params_.detector.family, found);
       publisher_.publish(message);
       broadcast(message);
       ++images_;
       tags_ += found.size();
     }
     updater_.update();
+  }
+
+  // The middle of the exposure of an image with this stamp.
+  [[nodiscard]] prf_core::Stamp exposure_of(prf_core::Stamp stamp) const {
+    return std::max(prf_core::kMinStamp, stamp - prf_core::from_seconds(params_.stamp_offset));
   }
 
   std::vector<TagDetection> detect(const Join::Joined& joined) {

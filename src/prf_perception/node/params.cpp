@@ -10,6 +10,7 @@ void TagDetectorNodeParams::validate() const {
   detector.validate();
   for (const int id : tag_ids) prf_core::require_between("an entry of tag_ids", id, 0, 65535);
   prf_core::require_between("info_wait", info_wait, 0.0, 10.0, "s");
+  prf_core::require_between("stamp_offset", stamp_offset, -0.5, 0.5, "s");
 }
 
 TagDetectorNodeParams load_params(const ros::NodeHandle& private_node) {
@@ -26,6 +27,7 @@ TagDetectorNodeParams load_params(const ros::NodeHandle& private_node) {
   params.detector.error_model.orientation_floor = values.number("orientation_floor");
   for (const int id : values.integers("tag_ids")) params.tag_ids.insert(id);
   params.info_wait = values.number("info_wait");
+  params.stamp_offset = values.number("stamp_offset");
   values.refuse_unknown();
   params.validate();
   return params;

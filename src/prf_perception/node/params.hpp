@@ -13,7 +13,8 @@ namespace prf_perception {
 struct TagDetectorNodeParams {
   TagDetectorParams detector;
   std::set<int> tag_ids;
-  double info_wait = 0.0;  // s
+  double info_wait = 0.0;     // s
+  double stamp_offset = 0.0;  // s
 
   void validate() const;  // throws std::invalid_argument with name, value and bound
 };

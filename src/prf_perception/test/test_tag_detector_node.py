@@ -15,8 +15,10 @@ import yaml
 from camera_cases import CameraCases  # noqa: F401  its tests run, too
 from detector_case import FOCAL, HEIGHT, MODULE_PX, WIDTH, DetectorCase, frame, tilted
 from diagnostic_msgs.msg import DiagnosticArray
-from sensor_msgs.msg import RegionOfInterest
+from sensor_msgs.msg import CameraInfo, Image, RegionOfInterest
 from std_msgs.msg import Header
+
+from prf_msgs.msg import TagDetectionArray
 
 PACKAGE = "prf_perception"
 
@@ -156,6 +158,21 @@ class TagDetectorNode(DetectorCase):
         norm = sum(getattr(other.orientation, axis) ** 2 for axis in "xyzw")
         self.assertAlmostEqual(norm, 1.0, places=9)
 
+    # Fault 54: a camera that stamps its images late -> what is published has the time of the exposure
+    def test_the_stamps_of_a_late_camera_are_shifted(self):
+        answers: list[TagDetectionArray] = []
+        pairs = [(rospy.Publisher("late/camera/" + name, kind, queue_size=10), kind)
+                 for name, kind in (("image_raw", Image), ("camera_info", CameraInfo))]
+        subscriber = rospy.Subscriber("late/tag_detections", TagDetectionArray, answers.append)
+        self.wait(lambda: all(one.get_num_connections() for one in (*[pair[0] for pair in pairs], subscriber)))
+        kept = []
+        stamp = self.send(frame(0), change=lambda *messages: kept.extend(messages))
+        for publisher, kind in pairs:
+            publisher.publish(next(message for message in kept if isinstance(message, kind)))
+        self.wait(lambda: answers)
+        self.assertEqual(answers[0].header.stamp, stamp - rospy.Duration.from_sec(0.04))
+        self.assertEqual(len(answers[0].detections), 1)
+
 
 class TagDetectorParameters(unittest.TestCase):
     CATALOGUE = [
@@ -167,6 +184,7 @@ class TagDetectorParameters(unittest.TestCase):
         ("tag_size", 5e-324), ("tag_size", 1e308), ("tag_ids", [70000]), ("corner_sigma", 5e-324),
         ("corner_sigma", 1e308), ("min_decision_margin", 1e308), ("quad_decimate", 1e308),
         ("position_floor", 5e-324), ("orientation_floor", 1e308), ("info_wait", 1e308),
+        ("stamp_offset", 0.6), ("stamp_offset", float("nan")), ("stamp_offset", None),
         ("tag_sise", 0.1), ("quad_decimate", None),
     ]
 

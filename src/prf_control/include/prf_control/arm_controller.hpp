@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <prf_core/speed_scale.hpp>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,8 @@ class ArmController {
   // Another share of the velocity limits and another acceleration limit, from the next tick on.
   // Throws std::invalid_argument for values that FollowerParams::validate() refuses.
   void tune(double velocity_scale, double acceleration);
+  // A share of velocity_scale from a tick on; throws as prf_core::SpeedScale.
+  void scale_speed(prf_core::Stamp from, double scale) { speed_.announce(from, scale); }
 
   std::vector<ControlResult> add_joints(const JointSample& joints);
   std::vector<ControlResult> add_setpoint(prf_core::Stamp stamp, const Setpoint& setpoint);
@@ -90,6 +93,7 @@ class ArmController {
 
  private:
   struct Tick;
+  void apply_speed(prf_core::Stamp tick);
   std::vector<ControlResult> process_joined_ticks();
   ControlResult process(const TickJoiner::Joined& joined);
   Tick tick_of(const TickJoiner::Joined& joined);
@@ -107,6 +111,8 @@ class ArmController {
   ArmControllerParams params_;
   TickJoiner joiner_;
   SetpointFollower follower_;
+  prf_core::SpeedScale speed_;
+  double applied_speed_ = 1.0;
   std::optional<prf_core::Stamp> last_stamp_;
   std::optional<JointVector> measured_;  // the last known, unwrapped
   ControllerCounts counts_;

@@ -58,6 +58,7 @@ struct ReferenceInput {
   bool follows = true;               // the arm does
   bool hand_on_goal = false;         // within goal_tolerance of the set-point before
   std::optional<Pose> look = {};     // of the hand that searches; none: it does not
+  double speed = 1.0;                // share, 0 .. 1, of the cursor's speed and of catching up
 };
 
 struct ReferenceResult {
@@ -105,6 +106,7 @@ class ReferenceGenerator {
   void follow_target(const ReferenceInput& input);
   [[nodiscard]] bool is_relative_to_target() const;
   [[nodiscard]] MovingPose hand_on_plan(Direction direction) const;
+  [[nodiscard]] MovingPose moving(Direction direction, double speed) const;
   [[nodiscard]] std::optional<MovingPose> reference(const ReferenceInput& input) const;
 
   ReferenceParams params_;

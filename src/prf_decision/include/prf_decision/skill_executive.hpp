@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <prf_core/speed_scale.hpp>
 #include <string>
 
 #include "prf_decision/assessor.hpp"
@@ -91,6 +92,10 @@ class SkillExecutive {
   // refuses.
   void tune(const DecisionParams& params);
 
+  // How fast the cursor and the catching up are from a tick on, as a share; throws as
+  // prf_core::SpeedScale. What moves with the target is not slowed down.
+  void scale_speed(Stamp from, double scale) { speed_.announce(from, scale); }
+
   // How often the HMM's posterior was no distribution and was reset.
   [[nodiscard]] std::size_t belief_resets() const { return belief_.resets(); }
   // What keeps the arm from following; empty: nothing.
@@ -136,6 +141,7 @@ class SkillExecutive {
   ReferenceGenerator reference_;
   TargetSearch search_;
   Goals goals_;
+  prf_core::SpeedScale speed_;
   std::optional<Stamp> last_tick_;
   std::optional<Pose> last_setpoint_;  // of that tick; none: the arm held
 };

@@ -13,18 +13,24 @@
 //
 // The arm is braked to rest (`braking`) and then held when the commands stop coming, when one
 // cannot be used or lies farther than `max_distance` from the measured joints, when these are not
-// known, and when the operator does not allow motion: velocities become 0, positions stay where the
-// braking has ended. No command that is not finite can leave.
+// known, and when the operator or a guard does not allow motion: velocities become 0, positions
+// stay where the braking has ended. No command that is not finite can leave.
+//
+// With a speed below 1, of the operator or of a guard, all joints are slowed down alike until none
+// is faster than that share of its limit.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <prf_core/stream_joiner.hpp>
 #include <prf_core/time.hpp>
 #include <string>
 #include <vector>
+
+#include "prf_drivers/motion_guard.hpp"
 
 namespace prf_drivers {
 
@@ -49,6 +55,9 @@ struct DriverCommand {
   Eigen::VectorXd position;  // rad; for a driver of velocities the commanded ones, for the record
   Eigen::VectorXd velocity;  // rad/s
   std::string hold;          // why the arm is held; empty: it follows
+  MotionCode code = MotionCode::kFollows;
+  double speed = 1.0;  // share of the velocity limits that is allowed
+  std::string slowed;  // why a guard allows no more; empty: none does
 };
 
 struct AdapterCounts {
@@ -61,11 +70,13 @@ struct AdapterCounts {
 
 class CommandAdapter {
  public:
-  explicit CommandAdapter(const AdapterParams& params);
+  // Without guards nothing but the rules above keeps the arm from moving.
+  explicit CommandAdapter(const AdapterParams& params,
+                          std::shared_ptr<MotionGuard> guards = nullptr);
 
-  // Measured joints, rad, of a control tick. Not-a-number: not known. The results are those of the
-  // ticks that are decided now, in order; none before the first command of a run.
-  std::vector<DriverCommand> add_measured(prf_core::Stamp stamp, const Eigen::VectorXd& measured);
+  // Measured at a control tick. The results are those of the ticks that are decided now, in order;
+  // none before the first command of a run.
+  std::vector<DriverCommand> add_measured(prf_core::Stamp stamp, const Measured& measured);
   // The command of a tick: positions, rad, and velocities, rad/s. An empty vector stands for a
   // command that cannot be used, with the reason.
   std::vector<DriverCommand> add_command(prf_core::Stamp stamp, const Eigen::VectorXd& position,
@@ -77,6 +88,9 @@ class CommandAdapter {
 
   // Why the operator does not allow motion; empty: motion is allowed.
   void set_veto(const std::string& veto) { veto_ = veto; }
+  // Share of the velocity limits, 0 (the arm is held) to 1, from the next tick on. Throws
+  // std::invalid_argument beyond these bounds.
+  void set_speed(double speed);
 
   [[nodiscard]] const AdapterCounts& counts() const { return counts_; }
 
@@ -90,7 +104,7 @@ class CommandAdapter {
     prf_core::Stamp stamp;
     Eigen::VectorXd position;
   };
-  using Joiner = prf_core::StreamJoiner<Eigen::VectorXd, Command>;
+  using Joiner = prf_core::StreamJoiner<Measured, Command>;
 
   std::vector<DriverCommand> decided();
   std::optional<DriverCommand> process(const Joiner::Joined& tick);
@@ -99,11 +113,24 @@ class CommandAdapter {
                                 const Eigen::VectorXd& measured) const;
   // Commanded position `delay` before the stamp.
   [[nodiscard]] Eigen::VectorXd expected_at(prf_core::Stamp stamp) const;
-  void follow(const Command& command, const Eigen::VectorXd& measured, prf_core::Stamp stamp);
+  struct Motion {
+    Eigen::VectorXd position;
+    Eigen::VectorXd velocity;
+  };
+  // Follows, unless a guard holds. Nothing is kept of a motion that is not sent.
+  [[nodiscard]] DriverCommand follow(const Command& command, const Measured& measured,
+                                     prf_core::Stamp stamp);
+  [[nodiscard]] Motion motion(const Command& command, const Eigen::VectorXd& measured,
+                              prf_core::Stamp stamp, double speed) const;
+  // Where the arm comes to rest when it is braked after this motion.
+  [[nodiscard]] Eigen::VectorXd rest_after(const Motion& motion,
+                                           const Eigen::VectorXd& measured) const;
   void brake();
   void remember(prf_core::Stamp stamp, const Eigen::VectorXd& position);
 
   AdapterParams params_;
+  std::shared_ptr<MotionGuard> guards_;
+  double speed_ = 1.0;  // that the operator allows
   Joiner joiner_;
   std::deque<Commanded> history_;  // of the last `delay`, rising
   bool begun_ = false;             // a command has been followed

@@ -15,7 +15,8 @@ The rules (fixed; they measure the framework and are not to be tuned):
   INVALID    The recording or a process failed; never S, P or F.
 
 Where faults were injected, gaps in what the framework says are part of the trial; what the
-simulator says must be whole all the same.
+simulator says must be whole all the same. A robot's bag, of real_robot.launch or of a replay, has no
+ground truth: hand and target are then what its sensors say, and the reason says so.
 """
 from dataclasses import dataclass, field
 
@@ -44,6 +45,8 @@ FALLEN_TILT = interfaces.load().fallen_tilt  # rad, body's z axis to the deck's 
 OBSTACLE = "obstacle"  # the link that the simulator puts in the way
 LYING = ("body", "platform")  # links whose contact means the same
 
+LONGEST_GAP = SECOND // 2  # of a robot's joint_states
+ESTIMATED = "by the robot's own sensors: no ground truth, contacts not known"
 MAX_IMAGES_IN_FLIGHT = 3  # in flight when the trial ends
 
 STATES = enums.names(ExecutionProgress)
@@ -126,10 +129,22 @@ def posture(platform: np.ndarray, base: np.ndarray) -> tuple[np.ndarray, np.ndar
     return relative[:, 2], np.arccos(np.clip(up[:, 2], -1.0, 1.0))
 
 
+def _gap(recording):
+    """Of a robot's bag, whose stamps jitter: a gap that hides what happened; "" when there is none."""
+    for name, stamps in (("joint_states", recording.ticks), ("execution/progress", recording.progress.stamps)):
+        lost = np.flatnonzero(np.diff(stamps) > LONGEST_GAP)
+        if lost.size:
+            return (f"{name} breaks off {recording.seconds(stamps[lost[0]]):.2f} s into the run: next stamp "
+                    f"{(stamps[lost[0] + 1] - stamps[lost[0]]) * 1e-9:.3f} s later")
+    return ""
+
+
 def defect(recording: Recording) -> str:
     """Why the recording is no evidence, or an empty string."""
     if len(recording.ticks) < 2:
         return "no two ticks of joint_states were recorded"
+    if recording.is_estimated:
+        return _gap(recording)
     series = {"joint_states": recording.ticks, "ground_truth/tag": recording.tag.stamps,
               "ground_truth/camera": recording.camera.stamps,
               "ground_truth/base": recording.base.stamps,
@@ -245,6 +260,8 @@ def judge(recording: Recording) -> Verdict:
     reach = "" if reached is None else f"reached at {recording.seconds(reached):.2f} s"
     verdict = "F" if failures else "P" if issues else "S"
     reasons = failures + issues if failures else [reach] + (issues or ["no issue"])
+    if recording.is_estimated:
+        reasons.append(ESTIMATED)
     execution_mean, execution_deviation = _lateral_statistics(recording, EXECUTION, stamps, lateral)
     tracking_mean, tracking_deviation = _lateral_statistics(recording, TRACKING, stamps, lateral)
     horizon, forecast_error = target.forecast_error(recording)

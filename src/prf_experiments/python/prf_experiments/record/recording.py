@@ -10,10 +10,11 @@ import rosgraph_msgs.msg
 from numpy.typing import ArrayLike
 
 from prf_experiments import geometry
-from prf_experiments.record import topics
+from prf_experiments.record import estimated, topics
+from prf_experiments.record.poses import Joints, Poses
 from prf_msgs import bags
 
-PLANNING_FRAME = "j2s7s300_link_base"
+PLANNING_FRAME = estimated.ARM_BASE
 BODY_FRAME = "base_link"
 TICK = 10_000_000  # ns, of the simulator; a driver may have another one
 NEEDED = topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS  # of a trial's bag
@@ -21,12 +22,6 @@ ARM_JOINTS = [f"j2s7s300_joint_{number}" for number in range(1, 8)]
 
 
 RecordingError = bags.BagError  # also: the bag does not hold a trial
-
-
-@dataclass
-class Poses:
-    stamps: np.ndarray  # (n,) ns
-    values: np.ndarray  # (n, 7)
 
 
 @dataclass
@@ -77,14 +72,6 @@ class Control:
 
 
 @dataclass
-class Joints:
-    """Of the seven joints of the arm, from base to hand."""
-    stamps: np.ndarray  # (n,) ns
-    positions: np.ndarray  # (n, 7) rad
-    velocities: np.ndarray  # (n, 7) rad/s
-
-
-@dataclass
 class FaultEvent:
     stamp: int  # ns, of the message or tick that it is done to
     fault: str
@@ -122,6 +109,7 @@ class Recording:
     measured: Joints | None = None
     commands: Joints | None = None
     fault_events: list = field(default_factory=list)
+    is_estimated: bool = False  # no ground truth: target and hand by the robot's own sensors
 
     def following(self) -> tuple[np.ndarray, np.ndarray]:
         """(stamps ns, (n, 2) m and rad) of the measured hand against the set-point.
@@ -219,6 +207,7 @@ class _Reader:
                       "diagnostics": self._keep_diagnostics}
         self._rows_of = {
             "joint_states": self._arm,
+            estimated.STAND_IN: self._arm,
             "joint_command": self._command,
             "ground_truth/platform": lambda message: pose_values(message.pose.pose),
             "ground_truth/base": lambda message: pose_values(message.pose.pose),
@@ -332,6 +321,9 @@ class _Reader:
         return Control(self.stamps("control/status"), np.array(codes, dtype=int), list(reasons),
                        np.array(positions, dtype=float), np.array(orientations, dtype=float))
 
+    def has(self, topic):
+        return topic in self._rows
+
     def joints(self, topic):
         values = np.array(self._rows[topic], dtype=float).reshape(-1, 2 * len(ARM_JOINTS))
         return Joints(self.stamps(topic), *np.hsplit(values, 2))
@@ -352,35 +344,45 @@ class _Reader:
         return pose
 
 
-def read(path: str, tag_id: int = 0, without: Sequence[str] = ()) -> Recording:
+def read(path: str, tag_id: int = 0, without: Sequence[str] = (), moved: str = "") -> Recording:
     """Reads a trial's bag. Raises RecordingError when it is broken or a topic is missing.
 
-    Of the topics `without` it need not have a message.
+    Of the topics `without` it need not have a message. Where there is no ground truth, `moved` are the joints whose
+    hand is looked at; else a stand-in's, if there is one.
     """
     reader = _Reader(tag_id)
     with bags.opened(path) as bag:
+        found = bags.counts(bag)
+        absent = () if any(found.get(name) for name in topics.GROUND_TRUTH) else tuple(topics.GROUND_TRUTH)
+        without = (*without, *absent, *(("camera/image_raw", "camera/camera_info") if absent else ()))
         bags.require_messages(bag, [name for name in NEEDED if name not in without])
         bags.require_types(bag, {name.lstrip("/") for name in reader.topics})
-        images = bags.counts(bag).get("camera/image_raw", 0)
+        images = found.get("camera/image_raw", 0)
         for topic, message, _ in bag.read_messages(topics=reader.topics):
             reader.take(topic, message)
-        return _recording(path, reader, images)
+        return _recording(path, reader, images, moved)
 
 
-def _recording(path, reader, images):
+def _recording(path, reader, images, moved):
     arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
     if arm_base_in_body is None:
         raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}, must: is it the bag "
                              "of a trial?")
+    is_estimated = not reader.has("ground_truth/tag")
+    moved = moved or (estimated.STAND_IN if reader.has(estimated.STAND_IN) else "joint_states")
+    if is_estimated:
+        world = estimated.world(path, reader.joints(moved), reader.joints("joint_states"),
+                                reader.poses("tag_detections"), reader.fixed_pose, arm_base_in_body)
+    else:
+        world = estimated.World(*(reader.poses("ground_truth/" + name)
+                                  for name in ("tag", "camera", "end_effector", "base", "platform")))
+    ticks = world.hand.stamps if is_estimated else reader.stamps("joint_states")
     return Recording(
-        ticks=reader.stamps("joint_states"),
-        tag=reader.poses("ground_truth/tag"),
-        camera=reader.poses("ground_truth/camera"),
-        end_effector=reader.poses("ground_truth/end_effector"),
-        base=reader.poses("ground_truth/base"),
-        platform=reader.poses("ground_truth/platform"),
-        contact_stamps=reader.stamps("ground_truth/contacts"),
+        ticks=ticks,
+        tag=world.tag, camera=world.camera, end_effector=world.hand, base=world.base, platform=world.platform,
+        contact_stamps=ticks if is_estimated else reader.stamps("ground_truth/contacts"),
         contacts=reader.contacts,
+        is_estimated=is_estimated,
         detection_stamps=reader.stamps("tag_detections"),
         detections=reader.poses("tag_detections").values,
         images=images,
@@ -389,7 +391,7 @@ def _recording(path, reader, images):
         plans=reader.plans,
         control=reader.control(),
         arm_base_in_body=arm_base_in_body,
-        measured=reader.joints("joint_states"), commands=reader.joints("joint_command"),
+        measured=reader.joints(moved), commands=reader.joints("joint_command"),
         fault_events=reader.fault_events,
         warnings=reader.warnings, diagnostics=reader.diagnostics,
         description=reader.description)

@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command `calibrate`: a bag of one minute of motion to the file that real_robot.launch reads."""
 import math
-import os
 import sys
 import warnings
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-import rospkg
 import yaml
 
 from prf_experiments import files, geometry
 from prf_experiments.record import recording
-from prf_experiments.robot import arm, calibration, made_motion
+from prf_experiments.robot import arm, calibration, description, efforts, made_motion
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_msgs import bags
@@ -20,15 +18,6 @@ from prf_msgs import bags
 HAND, OPTICAL, MOUNT = "j2s7s300_end_effector", "camera_optical_frame", "camera_mount"
 SEEN_WITHIN = (1e-3, np.radians(0.2), 2e-3)  # m, rad, s: what --seeds must keep
 TOPICS = ("joint_states", "joint_command", "tag_detections")
-
-
-def description() -> str:
-    path = os.path.join(rospkg.RosPack().get_path("jaco_v60_description"), "urdf", "jaco_v60.urdf")
-    if not os.path.isfile(path):
-        from catkin.find_in_workspaces import find_in_workspaces
-        path = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")[0]
-    with open(path, encoding="utf-8") as stream:
-        return stream.read()
 
 
 def _fixed(urdf: str, base: str, tip: str) -> np.ndarray:
@@ -92,6 +81,27 @@ def read(path: str, tag_id: int):
     return tuple(arrays(topic) for topic in TOPICS)
 
 
+def read_efforts(path: str) -> np.ndarray:
+    """Efforts (n, 7), N m, of a bag's joint_states that tell those of the arm."""
+    rows = []
+    with bags.opened(path) as bag:
+        bags.require_messages(bag, ["joint_states"])
+        bags.require_types(bag, ["joint_states"])
+        for _, message, _ in bag.read_messages(topics=["/joint_states"]):
+            if set(recording.ARM_JOINTS) <= set(message.name) and len(message.effort) == len(message.name):
+                rows.append([message.effort[message.name.index(name)] for name in recording.ARM_JOINTS])
+    return np.array(rows, float).reshape(-1, len(recording.ARM_JOINTS))
+
+
+def loaded_offset(path: str) -> float:
+    """s, that tag_detector took off the stamps with this file of calibrate."""
+    try:
+        with open(path, encoding="utf-8") as stream:
+            return float(yaml.safe_load(stream)["tag_detector"]["stamp_offset"])
+    except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
+        raise calibration.CalibrationError(f"{path} was not written by calibrate: {bags.one_line(error)}") from None
+
+
 def _told(found: calibration.Calibration, delay: float | None) -> str:
     place = found.camera_in_hand
     lines = [f"camera in hand   {1e3 * place[0]:.2f} {1e3 * place[1]:.2f} {1e3 * place[2]:.2f} mm, quaternion "
@@ -102,14 +112,13 @@ def _told(found: calibration.Calibration, delay: float | None) -> str:
              f"residuals        {1e3 * found.residuals[0]:.2f} mm, {np.degrees(found.residuals[1]):.3f} deg rms of "
              f"{found.detections} detections; began with {found.method}'s method",
              "verdict          " + (found.complaint or "good")]
-    if abs(found.offset) > calibration.WANTED[2]:
-        lines.append(17 * " " + "let the camera's driver stamp the middle of the exposure; no node shifts stamps")
     return "\n".join(lines)
 
 
-def of_bag(path: str, out: str, tag_id: int) -> int:
+def of_bag(path: str, out: str, tag_id: int, loaded: str | None, with_efforts: bool) -> int:
+    before = loaded_offset(loaded) if loaded else 0.0
     (stamps, joints), (command_stamps, commands), (image_stamps, detections) = read(path, tag_id)
-    chain = arm.Chain(description(), recording.PLANNING_FRAME, HAND)
+    chain = arm.Chain(description.text(), recording.PLANNING_FRAME, HAND)
     found = calibration.calibrate(calibration.hand_of(chain, stamps, joints), (stamps[0], stamps[-1]),
                                   image_stamps, detections)
     delay = (calibration.arm_delay(command_stamps, commands, stamps, joints) if len(command_stamps) > 1 else None)
@@ -118,9 +127,15 @@ def of_bag(path: str, out: str, tag_id: int) -> int:
         return 1
     content: dict = {"calibration": {
         "camera_in_hand": [round(float(one), 9) for one in found.camera_in_hand],
-        "stamp_offset": round(found.offset, 6), "residual_mm": round(1e3 * found.residuals[0], 4)}}
+        "residual_mm": round(1e3 * found.residuals[0], 4)},
+        "tag_detector": {"stamp_offset": round(before + found.offset, 6)}}
     if delay is not None:
         content |= {"decision": {"lead": round(delay, 4)}, "driver_adapter": {"delay": round(delay, 4)}}
+    if with_efforts:
+        lower, upper = efforts.bounds(read_efforts(path))
+        content["guards"] = {"effort_lower": [round(float(one), 2) for one in lower],
+                             "effort_upper": [round(float(one), 2) for one in upper]}
+        print("efforts          " + ", ".join(f"{low:.1f} to {high:.1f}" for low, high in zip(lower, upper)) + " N m")
     files.write(out, "# Written by calibrate, read by real_robot.launch calibration:=FILE. m, s; quaternion x y z w.\n"
                 + yaml.safe_dump(content, sort_keys=False))
     print(out)
@@ -129,7 +144,7 @@ def of_bag(path: str, out: str, tag_id: int) -> int:
 
 def of_seeds(count: int) -> int:
     """Made motions with known truth: 20 mm, 3 deg and 30 ms off. Prints the errors."""
-    urdf, worst = description(), np.zeros(4)
+    urdf, worst = description.text(), np.zeros(4)
     chain, nominal = arm.Chain(urdf, recording.PLANNING_FRAME, HAND), _fixed(urdf, HAND, OPTICAL)
     print("seed  camera mm   deg      image ms  arm ms   verdict")
     for seed in range(count):
@@ -160,7 +175,7 @@ def describe(path: str) -> int:
             or np.linalg.norm(place[:3]) > 1.0:
         raise calibration.CalibrationError(f"{path}: camera_in_hand is {place.tolist()}, must be x y z within 1 m and "
                                            "a unit quaternion x y z w")
-    print(with_camera(description(), place))
+    print(with_camera(description.text(), place))
     return 0
 
 
@@ -170,6 +185,10 @@ def main(words: list[str]) -> int:
     parser.add_argument("bag", nargs="?", help="with joint_states, tag_detections and, for the arm, joint_command")
     parser.add_argument("--out", default="calibration.yaml", help="file for real_robot.launch calibration:=")
     parser.add_argument("--tag", type=int, default=0, help="id of the tag")
+    parser.add_argument("--loaded", metavar="FILE", help="the calibration that was loaded while the bag was recorded: "
+                        "its shift of the stamps is added to what is found")
+    parser.add_argument("--efforts", action="store_true", help="learns bounds of the efforts, too: the motion must be "
+                        "free, and go where the skill will go")
     parser.add_argument("--seeds", type=int, help="measures itself on so many made motions instead")
     parser.add_argument("--description", metavar="FILE", help="prints the robot description with a file's camera")
     options = parser.parse_args(words)
@@ -180,8 +199,10 @@ def main(words: list[str]) -> int:
         try:
             if options.description is not None:
                 return describe(options.description)
-            return of_bag(options.bag, options.out, options.tag) if options.bag else of_seeds(options.seeds)
-        except calibration.CalibrationError as error:
+            if options.seeds is not None:
+                return of_seeds(options.seeds)
+            return of_bag(options.bag, options.out, options.tag, options.loaded, options.efforts)
+        except (calibration.CalibrationError, efforts.EffortError) as error:
             print(f"calibrate: {error}", file=sys.stderr)
             return 1
     return session.guarded("calibrate", run)

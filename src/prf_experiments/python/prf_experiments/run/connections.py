@@ -37,6 +37,14 @@ def through_driver(links: set[Link], source: str) -> set[Link]:
                       (joint_states, "/joint_state_joiner", "/driver_adapter")}
 
 
+def of_rehearsal(links: set[Link], source: str) -> set[Link]:
+    """The links of a framework whose arm is a stand-in: decision and controller get its joint_states."""
+    joint_states, readers = "/joint_states", ("/decision", "/arm_controller")
+    kept = {link for link in links if not (link[0] == joint_states and link[2] in readers)}
+    return (kept | {("/rehearsal/joint_states", "/stand_in_arm", reader) for reader in readers}
+            | {(joint_states, "/" + source, "/stand_in_arm"), ("/joint_command", "/arm_controller", "/stand_in_arm")})
+
+
 class _Transport(xmlrpc.client.Transport):
     def make_connection(self, host):
         return http.client.HTTPConnection(host, timeout=TIMEOUT)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a trial's sensor topics into the framework alone and compares its outputs."""
+"""Plays a bag's sensor topics into the framework alone: a trial's, to compare its outputs with those that are in
+the bag, or any robot's, to see what the framework would have done."""
 import argparse
 import contextlib
 import os
@@ -10,9 +11,12 @@ from collections.abc import Iterator
 
 from prf_experiments import files
 from prf_experiments.faults import catalogue, disturbances, wiring
-from prf_experiments.record import digest, recording, topics
+from prf_experiments.judge import cause, invariants, judge, reaction
+from prf_experiments.record import digest, estimated, recording, topics
+from prf_experiments.robot import shadow
 from prf_experiments.run import arguments as args
-from prf_experiments.run import connections, processes, session, trial
+from prf_experiments.run import connections, foreign, processes, session, trial
+from prf_experiments.teach import demonstration
 from prf_msgs import bags
 
 NEEDED = topics.CLOCK + topics.SENSORS
@@ -68,23 +72,39 @@ def replay(bag: str, folder: str, rate: float) -> str:
     faults = repeatable(chosen)
     faulty = wiring.recorded(faults)
     links = connections.trial_links("player", simulated=False)
-    play = session.Session(
+    played_links = wiring.replayed(links, faults, "/player")
+    return _play(bag, rate, PLAYED + faulty, None, session.Session(
         folder=folder, bag="replay.bag",
         launch_file=session.packaged("launch", "framework.launch"),
         launch_arguments=[f"{name}:={args.show(chosen[name])}" for name in FRAMEWORK_ARGUMENTS
                           if chosen.get(name) is not None]
         + (trial.skill_arguments(chosen) if "demonstration" in chosen else [])
         + ["relayed:=" + "".join(f"/{topic}:" for topic in catalogue.relayed(faults))],
-        topics=topics.OUTPUTS + topics.TRANSFORMS,
-        links=wiring.replayed(links, faults, "/player"), driver="player")
+        topics=topics.OUTPUTS + topics.TRANSFORMS, links=played_links, driver="player"))
+
+
+def rehearse(bag: str, folder: str, rate: float, arguments: dict) -> str:
+    """Leaves folder/replay.bag: what the framework and a stand-in for the arm do about a converted bag."""
+    description = {"command": f"rosrun prf_experiments replay {bag}", "arguments": arguments,
+                   "tick_s": 1e-9 * recording.TICK, "versions": trial.versions()}
+    return _play(bag, rate, NEEDED, description, session.Session(
+        folder=folder, bag="replay.bag", launch_file=session.packaged("launch", "framework.launch"),
+        launch_arguments=["rehearsal:=true", *trial.skill_arguments(arguments)],
+        topics=["joint_states", estimated.STAND_IN, *topics.OUTPUTS, *topics.TRANSFORMS, topics.DESCRIPTION,
+                *topics.EXEMPT],
+        links=connections.of_rehearsal(connections.trial_links("player", simulated=False), "player"),
+        driver="player"))
+
+
+def _play(bag: str, rate: float, played: list[str], description: dict | None, play: session.Session) -> str:
     with play.running() as launch, \
-            player(bag, play.log("player.log"), rate, PLAYED + faulty) as playing, \
+            player(bag, play.log("player.log"), rate, played) as playing, \
             contextlib.ExitStack() as stack:
         # Imported here: rospy reads the environment that running() has set.
         import std_srvs.srv
 
         from prf_experiments.run.observer import Observer
-        observer = Observer()
+        observer = Observer(description)
         stack.callback(observer.close)
         recorder = stack.enter_context(play.recording())
         play.wait_until_connected(launch, recorder)
@@ -99,7 +119,7 @@ def replay(bag: str, folder: str, rate: float) -> str:
                                        + processes.last_line(play.log("player.log")))
         play.close(launch, recorder)
     play.progress.close()
-    return os.path.join(folder, "replay.bag")
+    return os.path.join(play.folder, play.bag)
 
 
 def compare(bag: str, replayed: str) -> tuple[dict, dict, list[str]]:
@@ -108,7 +128,42 @@ def compare(bag: str, replayed: str) -> tuple[dict, dict, list[str]]:
     return ours, theirs, digest.differences(ours, theirs)
 
 
+def tell(bag: str, folder: str) -> int:
+    """Judges and reports what a stand-in did about a robot's bag."""
+    from prf_experiments.report import report  # takes its time
+    data = recording.read(bag)
+    verdict = judge.judge(data)
+    content = {**data.description, **verdict.as_json(), "cause": cause.sentence(data, verdict),
+               "invariants": invariants.check(data).as_json(), "reaction": reaction.times(data)}
+    files.write_json(os.path.join(folder, "verdict.json"), content)
+    report.write(os.path.join(folder, "report.html"), bag, data, content,
+                 demonstration.read(trial.skill(data.description["arguments"])))
+    print(f"would have been {verdict.verdict}: {verdict.reason}")
+    if content["cause"]:
+        print(content["cause"])
+    print("\n".join(shadow.compared(bag)))
+    print(folder)
+    return 0
+
+
+def of_robot(options: argparse.Namespace) -> int:
+    """A bag with names, rates and encodings of its own."""
+    source = foreign.Source(foreign.parse_map(options.map or []),
+                            foreign.read_camera_info(options.camera_info) if options.camera_info else None)
+    folder = os.path.abspath(options.folder or os.path.splitext(os.path.basename(options.bag))[0] + "_replayed")
+    os.makedirs(os.path.join(folder, "log"), exist_ok=True)
+    played = os.path.join(folder, "played.bag")
+    session.waiting(f"converting {options.bag}")
+    images = foreign.convert(options.bag, played, source)
+    session.waiting("")
+    print(f"{images} images")
+    arguments = {"demonstration": options.demonstration, "rehearsal": True}
+    return tell(rehearse(played, folder, options.rate, arguments), folder)
+
+
 def run(options: argparse.Namespace) -> int:
+    if options.map is not None or options.camera_info:
+        return of_robot(options)
     check(options.bag)
     if options.folder:
         os.makedirs(options.folder, exist_ok=True)
@@ -129,9 +184,14 @@ def run(options: argparse.Namespace) -> int:
 def main(words: list[str]) -> int:
     parser = args.Parser(
         prog="replay", description="Plays the sensor topics of a trial's bag into the framework "
-        "alone and compares its outputs with those in the bag. Exit 0: identical.")
+        "alone and compares its outputs with those in the bag. Exit 0: identical. With --map any robot's bag "
+        "is played, and a stand-in for the arm shows what the framework would have done.")
     parser.add_argument("bag")
     parser.add_argument("--folder", help="keeps replay.bag and the logs there")
+    parser.add_argument("--map", nargs="*", metavar="OURS:=THEIRS", help="topics of a robot's bag, such as "
+                        "camera/image_raw:=/usb_cam/image_raw; Image or CompressedImage")
+    parser.add_argument("--camera-info", metavar="FILE", help="of camera_calibration, where the bag has no camera_info")
+    parser.add_argument("--demonstration", help="the skill; else the package's own")
     parser.add_argument("--rate", type=float, default=1.0, help="times real time")
     parser.add_argument("--json", metavar="FILE", help="writes the result there too")
     options = parser.parse_args(words)

@@ -95,8 +95,10 @@ def _target(path, tag_id):
     return geometry.make(np.mean(seen[:, :3], axis=0), geometry.rotation(seen).mean())
 
 
-def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstration:
-    """Demonstration from a bag of joint_states, tf and tag_detections."""
+def convert(path: str, command: str, tag_id: int = 0, cut: tuple[float, float] = (0.0, 0.0),
+            stretch: float = 1.0) -> demonstration.Demonstration:
+    """Demonstration from a bag of joint_states, tf and tag_detections: the motion less `cut` s at its ends,
+    `stretch` times as slow."""
     target = _target(path, tag_id)
     stamps = np.array([_stamp(message) for message in _messages(path, "joint_states")], dtype=np.int64)
     buffer = frames.load(path, "/robot_state_publisher")
@@ -108,7 +110,12 @@ def convert(path: str, command: str, tag_id: int = 0) -> demonstration.Demonstra
             + frames.why_not(buffer, recording.PLANNING_FRAME, demonstration.HAND_FRAME, stamps[-1]))
     times, hand = 1e-9 * (stamps[known] - stamps[known][0]), hand[known]
     part = moving_part(times, hand)
-    times, poses = resample(times[part], hand[part], RATE)
+    times, hand = times[part], hand[part]
+    kept = (times >= times[0] + cut[0]) & (times <= times[-1] - cut[1])
+    if kept.sum() < 2:
+        raise demonstration.DemonstrationError(
+            f"{path}: nothing is left of {times[-1] - times[0]:.3g} s of motion, {cut[0] + cut[1]:g} s are cut off")
+    times, poses = resample(stretch * times[kept], hand[kept], RATE)
     return demonstration.make(times, poses, target, command)
 
 

@@ -8,14 +8,18 @@ import rosbag
 import rospy
 import sensor_msgs.msg
 import trajectory_msgs.msg
+import yaml
 from prf_experiments.record import recording
-from prf_experiments.robot import arm, calibrate, calibration, made_motion
+from prf_experiments.robot import arm, calibrate, calibration, description, efforts, made_motion
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 import prf_msgs.msg
 from prf_experiments import geometry
 from prf_msgs import bags
+from prf_msgs.msg import TagDetection, TagDetectionArray
 
-URDF = calibrate.description()
+URDF = description.text()
 CHAIN = arm.Chain(URDF, "j2s7s300_link_base", calibrate.HAND)
 NOMINAL = arm.Chain(URDF, calibrate.HAND, calibrate.OPTICAL).poses(np.zeros((1, 0)))[0]
 
@@ -80,6 +84,55 @@ class Calibration(unittest.TestCase):
                 with open(file, "w", encoding="utf-8") as stream:
                     stream.write(text)
                 self.assertEqual(calibrate.main(["--description", file]), 1)
+
+    def made_bag(self, path, motion, effort=2.0):
+        """A recording of the motion, every sixth detection, with efforts that go with the position."""
+        with rosbag.Bag(path, "w") as bag:
+            for stamp, joints, command in zip(motion.stamps, motion.measured, motion.commands):
+                at = rospy.Time.from_sec(100.0 + stamp)
+                states = JointState(name=recording.ARM_JOINTS, position=list(joints), effort=list(effort * joints))
+                states.header.stamp = at
+                bag.write("/joint_states", states, at)
+                order = JointTrajectory(joint_names=recording.ARM_JOINTS,
+                                        points=[JointTrajectoryPoint(positions=list(command))])
+                order.header.stamp = at
+                bag.write("/joint_command", order, at)
+            for stamp, seen in zip(motion.image_stamps[::6], motion.detections[::6]):
+                found = TagDetection(id=0)
+                place = found.pose.pose
+                place.position.x, place.position.y, place.position.z = seen[:3]
+                turn = place.orientation
+                turn.x, turn.y, turn.z, turn.w = seen[3:]
+                message = TagDetectionArray(detections=[found])
+                message.header.stamp = rospy.Time.from_sec(100.0 + stamp)
+                bag.write("/tag_detections", message, message.header.stamp)
+
+    def test_writes_the_file_that_the_nodes_read(self):
+        motion = made_motion.make(CHAIN, NOMINAL, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            bag, out = os.path.join(folder, "one.bag"), os.path.join(folder, "calibration.yaml")
+            self.made_bag(bag, motion)
+            self.assertEqual(calibrate.main([bag, "--out", out, "--efforts"]), 0)
+            with open(out, encoding="utf-8") as stream:
+                first = yaml.safe_load(stream)
+            self.assertAlmostEqual(first["tag_detector"]["stamp_offset"], motion.offset, delta=2e-3)
+            self.assertAlmostEqual(first["driver_adapter"]["delay"], motion.delay, delta=2e-3)
+            self.assertAlmostEqual(first["decision"]["lead"], motion.delay, delta=2e-3)
+            lower, upper = np.array([first["guards"]["effort_" + name] for name in ("lower", "upper")])
+            self.assertTrue(np.all(lower < np.min(2.0 * motion.measured, axis=0)))
+            self.assertTrue(np.all(upper > np.max(2.0 * motion.measured, axis=0)))
+            # With that file loaded the detector would have shifted the stamps already.
+            self.assertEqual(calibrate.main([bag, "--out", out, "--loaded", out]), 0)
+            with open(out, encoding="utf-8") as stream:
+                second = yaml.safe_load(stream)
+            self.assertAlmostEqual(second["tag_detector"]["stamp_offset"],
+                                   2.0 * first["tag_detector"]["stamp_offset"], delta=1e-5)
+
+    # Fault 54: a driver that tells no efforts -> no bounds are learnt, in one line
+    def test_learns_no_bounds_from_efforts_that_are_none(self):
+        for bad in (np.ones((2000, 7)), np.full((2000, 7), np.nan), np.random.default_rng(1).normal(size=(10, 7))):
+            with self.assertRaises(efforts.EffortError):
+                efforts.bounds(bad)
 
 
 if __name__ == "__main__":
