@@ -5,6 +5,7 @@ import argparse
 from prf_experiments import files
 from prf_experiments.judge import cause, invariants, judge, reaction, timeline
 from prf_experiments.record import digest, recording
+from prf_experiments.robot import shadow
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session, trial
 from prf_experiments.teach import demonstration
@@ -82,6 +83,8 @@ def inspect_main(words: list[str]) -> int:
             lines = timeline.event_lines(data, verdict.figures)
             files.write_json(options.json, [dict(zip(names, line)) for line in lines])
         print(timeline.text(data, verdict, cause.sentence(data, verdict)), end="")
+        if data.is_estimated:
+            print("\n".join(shadow.compared(options.bag)))
         return 0
     return session.guarded("inspect", action)
 

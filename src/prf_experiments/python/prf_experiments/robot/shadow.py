@@ -10,8 +10,6 @@ import numpy as np
 
 from prf_experiments.judge import judge
 from prf_experiments.record import estimated, recording
-from prf_experiments.run import arguments as args
-from prf_experiments.run import session
 from prf_msgs import bags
 
 
@@ -37,7 +35,10 @@ def way_of(world: estimated.World, start: int) -> Way:
 
 
 def compared(bag: str) -> list[str]:
-    """Lines of a table, for people. Raises BagError for a bag without a stand-in."""
+    """Lines of a table, for people; none for a bag without a stand-in."""
+    with bags.opened(bag) as content:
+        if not bags.counts(content).get(estimated.STAND_IN):
+            return []
     framework, person = (recording.read(bag, moved=topic) for topic in (estimated.STAND_IN, "joint_states"))
     worlds = [estimated.World(data.tag, data.camera, data.end_effector, data.base, data.platform)
               for data in (framework, person)]
@@ -51,17 +52,3 @@ def compared(bag: str) -> list[str]:
     if len(apart):
         lines.append(f"apart        {1e3 * np.median(apart):.0f} mm in the median, at most {1e3 * np.max(apart):.0f}")
     return lines
-
-
-def main(words: list[str]) -> int:
-    parser = args.Parser(prog="shadow", description="Compares what the framework would have done with what a person "
-                         "did with the arm, in a bag of real_robot.launch dry_run:=true or of replay --map.")
-    parser.add_argument("bag")
-    options = parser.parse_args(words)
-
-    def action():
-        with bags.opened(options.bag) as bag:
-            bags.require_messages(bag, [estimated.STAND_IN])
-        print("\n".join(compared(options.bag)))
-        return 0
-    return session.guarded("shadow", action)
