@@ -5,6 +5,8 @@ import pathlib
 import re
 import shutil
 
+import notebooks
+
 REPO = pathlib.Path(__file__).resolve().parents[2]
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
 MERMAID = re.compile(r"```mermaid\n.*?```\n", re.DOTALL)
@@ -45,6 +47,8 @@ def _link(page, pages):
         path = pathlib.Path(os.path.normpath(page.parent / target))
         if picture or path in pages:
             return found[0]
+        if path.suffix == ".ipynb":
+            return f"[{shown}]({target[:-len('.ipynb')]}.md{section})"
         if path / "README.md" in pages:
             return f"[{shown}]({target.rstrip('/')}/README.md{section})"
         if parameters := _parameters(path):
@@ -84,6 +88,8 @@ def lay_out(target):
         out = target / picture.relative_to(REPO)
         out.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(picture, out)
+    for notebook in (REPO / "docs").rglob("*.ipynb"):
+        notebooks.write(notebook, target / notebook.parent.relative_to(REPO))
     shutil.copyfile(REPO / "docs" / "site" / "index.md", target / "index.md")
     for name in ("conf.py", "mathml.py", "docstrings.py"):
         shutil.copyfile(REPO / "scripts" / "site" / name, target / name)

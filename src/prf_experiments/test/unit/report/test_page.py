@@ -41,6 +41,14 @@ class Page(unittest.TestCase):
             raise plots.Missing("No module named 'bokeh'; " + python_packages.how_to_get("bokeh"))
         self.assertIn("./run_tests installs", page.plotted(draw))
 
+    def test_a_legend_has_as_many_columns_as_a_phone_has_room_for(self):
+        for length, columns in ((5, 3), (20, 2), (30, 1)):
+            panel = plots.panel("y")
+            for name in "abc":
+                plots.add_line(panel, [0, 1], [0, 1], length * name)
+            plots.legend_above(panel)
+            self.assertEqual(panel.legend[0].ncols, columns)
+
     def test_a_value_that_a_template_needs_must_be_given(self):
         with self.assertRaises(jinja2.UndefinedError):
             page.render("study.html", title="t")

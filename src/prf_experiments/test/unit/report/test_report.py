@@ -115,6 +115,22 @@ class Report(unittest.TestCase):
             self.assertIn(part, text)
         self.assertNotIn("final_lateral_mm", text)
 
+    def test_begins_with_the_verdict_and_the_rules_and_fits_a_phone(self):
+        text = self.write(synthetic.make_recording(4.0), brief=True)
+        self.assertIn('<meta name="viewport" content="width=device-width, initial-scale=1">', text)
+        self.assertRegex(text, r'<div class="verdict S">\s*<p><b>S</b> success: ')
+        self.assertIn("optical axis, and within 100 mm of 0.3 m along it, for 1.0 s without a break", text)
+
+    def test_shows_faults_what_must_hold_and_does_not_and_leads_into_the_film(self):
+        data = synthetic.make_recording(3.0)
+        data.fault_events = [recording.FaultEvent(int(data.ticks[100]), "drop/tf:0.3", "dropped <one>")]
+        content = {**judge.judge(data).as_json(), "invariants": {"violations": ["step <beyond>"]}}
+        text = report.render(content, data, [])
+        self.assert_sound(text)
+        self.assertLess(text.index("<td>step &lt;beyond&gt;</td>"), text.index("<h2>Timeline</h2>"))
+        self.assertIn('<td>drop/tf:0.3</td><td class="number">1</td>', text)
+        self.assertRegex(text, r'<a href="#film" data-at="1\.00">1\.00</a>')
+
     def test_every_figure_of_the_judge_has_words_and_a_unit(self):
         data = synthetic.make_recording(4.0)
         content = {"figures": judge.judge(data).figures, "invariants": invariants.check(data).figures,
