@@ -6,18 +6,22 @@ import re
 SHARED = pathlib.Path("/usr/share/javascript")
 
 
-def _put_in(file, imported, folder):
+def _change(file, changed, into):
     text = file.read_text(encoding="utf-8")
-    file.write_text(re.sub(imported, lambda found: (folder / found[1]).read_text(encoding="utf-8"), text,
-                           flags=re.MULTILINE), encoding="utf-8")
+    if (new := re.sub(changed, into, text, flags=re.MULTILINE)) != text:
+        file.write_text(new, encoding="utf-8")
 
 
-def stand_alone(static):
+def stand_alone(html):
     """Puts what the theme's script and style sheet import in place of the imports.
 
-    A script with `import` is none to a browser that was not told so, and gets no file beside it from a folder;
-    then neither the table of contents follows the page nor can light and dark be chosen.
+    A browser runs a script with `import` only as a module, and loads no module from a folder; then neither does the
+    table of contents follow the page nor can light and dark be chosen.
     """
-    script, style = static / "scripts" / "furo.js", static / "styles" / "furo.css"
-    _put_in(script, r'^import Gumshoe from "(.+)";$', script.parent)
-    _put_in(style, r"@import url\(/javascript/([\w./-]+)\);", SHARED)
+    static = html / "_static"
+    _change(static / "scripts" / "furo.js", r'^import (?:\* as )?Gumshoe from "(.+)";$',
+            lambda found: (static / "scripts" / found[1]).read_text(encoding="utf-8"))
+    _change(static / "styles" / "furo.css", r"@import url\(/javascript/([\w./-]+)\);",
+            lambda found: (SHARED / found[1]).read_text(encoding="utf-8"))
+    for page in html.rglob("*.html"):
+        _change(page, r"<script[^>]*furo\.js[^>]*>", lambda found: found[0].replace(' type="module"', ""))
