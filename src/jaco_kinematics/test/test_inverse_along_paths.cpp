@@ -22,14 +22,24 @@ double least_motion(const JointVector& q, const Eigen::Isometry3d& to) {
   return jacobian(q).completeOrthogonalDecomposition().solve(change).norm();
 }
 
+struct Walk {
+  JointVector q;
+  int far = 0;  // steps that took more than kSlack, beside the least motion
+};
+
+constexpr double kSlack = 0.001;     // [rad]
+constexpr double kFarthest = 0.009;  // [rad]
+
 // Moves to the next pose of a path, with the last result as seed. Beside the least motion there is
 // room for its second order next to singularities and for the pull away from limits; the largest
-// found is 1.18 times the least, and 0.0085 rad more where shoulder and wrist are singular at once.
-void follow(const Eigen::Isometry3d& pose, JointVector* q) {
-  const IkResult result = inverse(pose, *q);
+// found is 1.18 times the least.
+void follow(const Eigen::Isometry3d& pose, Walk* walk) {
+  const IkResult result = inverse(pose, walk->q);
   ASSERT_NO_FATAL_FAILURE(expect_meets(pose, result));
-  ASSERT_LE((result.q - *q).norm(), 1.2 * least_motion(*q, pose) + 0.01);
-  *q = result.q;
+  const double more = (result.q - walk->q).norm() - 1.2 * least_motion(walk->q, pose);
+  ASSERT_LE(more, kFarthest);
+  if (more > kSlack) ++walk->far;
+  walk->q = result.q;
 }
 
 // Smooth random joint paths.
@@ -52,11 +62,12 @@ TEST(JacoInverse, IsContinuousAlongSmoothPaths) {
       const double t = 2.0 * M_PI * step / kSteps;
       return JointVector(centre.array() + 0.5 * (start.array() + t).sin());
     };
-    JointVector q = joints_at(0);
+    Walk walk{joints_at(0)};
     for (int step = 1; step <= kSteps; ++step) {
-      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &q))
+      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &walk))
           << "path " << path << " step " << step;
     }
+    EXPECT_EQ(walk.far, 0) << "path " << path;
   }
 }
 
@@ -64,10 +75,14 @@ TEST(JacoInverse, IsContinuousAlongSmoothPaths) {
 TEST(JacoInverse, PassesTheShouldersSingularityWithoutAJump) {
   constexpr int kSteps = 400;
   constexpr double kTwoSteps = 0.009;  // [rad]
-  // [rad] Shoulder and wrist are nearly singular at once on one path (0.038); a change of branch
-  // turns a joint by much more.
-  constexpr double kLargest = 0.04;
+  constexpr double kLargest = 0.018;   // [rad]
+  // [rad] On one path shoulder and wrist are nearly singular at once, for one step: the arm angle
+  // is all but free there, and the posture's pull turns it. A change of branch turns a joint by
+  // much more.
+  constexpr double kTwiceSingular = 0.038;
   int passed = 0;
+  int twice_singular = 0;
+  int far = 0;
   int within_two_steps = 0;
   std::mt19937 generator(14);
   for (int path = 0; path < 50; ++path) {
@@ -81,18 +96,22 @@ TEST(JacoInverse, PassesTheShouldersSingularityWithoutAJump) {
       q[3] += 0.3 * std::sin(6.0 * step / kSteps);
       return q;
     };
-    JointVector q = joints_at(0);
+    Walk walk{joints_at(0)};
     double largest = 0.0;
     for (int step = 1; step <= kSteps; ++step) {
-      const JointVector before = q;
-      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &q))
+      const JointVector before = walk.q;
+      ASSERT_NO_FATAL_FAILURE(follow(forward(joints_at(step)), &walk))
           << "path " << path << " step " << step;
-      largest = std::max(largest, (q - before).cwiseAbs().maxCoeff());
+      largest = std::max(largest, (walk.q - before).cwiseAbs().maxCoeff());
     }
-    EXPECT_LE(largest, kLargest) << "path " << path;
+    EXPECT_LE(largest, kTwiceSingular) << "path " << path;
     if (largest <= kTwoSteps) ++within_two_steps;
-    if (q[1] > M_PI + 0.1) ++passed;
+    if (largest > kLargest) ++twice_singular;
+    far += walk.far;
+    if (walk.q[1] > M_PI + 0.1) ++passed;
   }
+  EXPECT_LE(twice_singular, 1);
+  EXPECT_LE(far, 1);
   EXPECT_GE(within_two_steps, 39);
   EXPECT_GE(passed, 45);
 }
