@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/skill_executive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
 #include <stdexcept>
@@ -148,20 +149,23 @@ bool SkillExecutive::can_search(const Tick& tick) const {
   if (reference_.cursor() > 0 || following_.is_off() || !last || last->predictions.empty()) {
     return false;
   }
-  return reference_.is_on_skill(*tick.hand, {params_.guards.following.path.position, 2 * M_PI});
+  const double most = params_.guards.following.path.position + TargetSearch::kMostAside;
+  return reference_.is_on_skill(*tick.hand, {most, 2 * M_PI});
 }
 
 // Around where the target is forecast now; beyond the forecast's reach, where it ends. From where
-// the plan begins, or where the hand stands if that is farther away.
+// the plan begins, drawn back where the hand is farther from the target already.
 void SkillExecutive::begin_search(const Tick& tick) {
   if (fsm_.state() != State::kSearch) return;
   const Trajectory& plan = *reference_.plan();
   const auto last = predicted_target(*belief_.forecast(), tick.stamp + params_.reference.lead);
-  const auto distance = [&](const Pose& hand) {
-    return (hand.position - last.target.pose.position).norm();
+  const auto from_target = [&](const Pose& hand) -> Eigen::Vector3d {
+    return hand.position - last.target.pose.position;
   };
   Pose stand = plan.poses.front();
-  if (distance(*tick.hand) > distance(stand)) stand.position = tick.hand->position;
+  const double farther = from_target(*tick.hand).norm() - from_target(stand).norm();
+  const double back = std::clamp(farther, 0.0, params_.guards.following.path.position);
+  stand.position += back * from_target(stand).normalized();
   search_.begin(stand, plan.goal_in_target, last);
 }
 

@@ -42,7 +42,13 @@ std::vector<Pose> looks(const prf_core::TargetPrediction& last) {
   return found;
 }
 
-Vector3d axis(const Pose& look) { return look.orientation * Vector3d::UnitX(); }
+// Direction from the stand to where the camera looks, across the line of sight to the centre.
+Vector3d place(const Pose& look) {
+  const Vector3d sight = kCentre - kStand.position;
+  const Vector3d axis = look.orientation * Vector3d::UnitX();
+  const double length = sight.squaredNorm() / axis.dot(sight);
+  return (look.position + length * axis - kStand.position).normalized();
+}
 
 double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -50,20 +56,28 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
 
 TEST(TargetSearch, LooksFirstWhereTheTargetWasForecast) {
   const auto found = looks(last_seen({0.1, 0.1, 0.1}, {0, 0, 0}));
-  EXPECT_LT(angle_between(axis(found[0]), kCentre - kStand.position), 1e-5);
+  EXPECT_LT(angle_between(place(found[0]), kCentre - kStand.position), 1e-5);
 }
 
-TEST(TargetSearch, TurnsTheHandWithoutMovingIt) {
+TEST(TargetSearch, MovesAsideWhereItLooksAndNeverNearer) {
+  const Vector3d sight = kCentre - kStand.position;
+  double farthest = 0;
   for (const Pose& look : looks(last_seen({0.1, 0.2, 0.05}, {0.3, 0, 0}))) {
-    EXPECT_EQ(look.position, kStand.position);
+    const Vector3d moved = look.position - kStand.position;
+    EXPECT_NEAR(moved.dot(sight), 0, 1e-9);
+    EXPECT_GE((look.position - kCentre).norm(), sight.norm() - 1e-9);
+    EXPECT_LE(moved.norm(), TargetSearch::kMostAside + 1e-9);
+    EXPECT_GE(moved.dot(place(look)), -1e-9);
+    farthest = std::max(farthest, moved.norm());
   }
+  EXPECT_GT(farthest, 0.15);
 }
 
 TEST(TargetSearch, GoesAroundInLoopsThatWiden) {
   const auto found = looks(last_seen({0.1, 0.1, 0.1}, {0, 0, 0}));
   double before = 0;
   for (const Pose& look : found) {
-    const double off = angle_between(axis(look), kCentre - kStand.position);
+    const double off = angle_between(place(look), kCentre - kStand.position);
     EXPECT_GE(off, before - 1e-5);
     EXPECT_LE(off, kParams.widest + 1e-5);
     before = off;
@@ -79,10 +93,11 @@ TEST(TargetSearch, LeavesNoGapThatACameraOfThatWidthDoesNotSee) {
   for (double off = 0; off <= 2 * kParams.spacing; off += 0.1) {
     for (double azimuth = 0; azimuth < 2 * M_PI; azimuth += 0.2) {
       const Vector3d turned = Eigen::AngleAxisd(azimuth, sight) * beside;
-      const Vector3d place = std::cos(off) * sight + std::sin(off) * turned;
+      const Vector3d wanted = std::cos(off) * sight + std::sin(off) * turned;
       double nearest = M_PI;
-      for (const Pose& look : found) nearest = std::min(nearest, angle_between(axis(look), place));
-      EXPECT_LE(nearest, kParams.spacing) << "at " << off << " rad, azimuth " << azimuth;
+      for (const Pose& look : found)
+        nearest = std::min(nearest, angle_between(place(look), wanted));
+      EXPECT_LE(nearest, 0.75 * kParams.spacing) << "at " << off << " rad, azimuth " << azimuth;
     }
   }
 }
@@ -91,12 +106,12 @@ TEST(TargetSearch, BeginsOnTheSideWhereTheTargetIsLeastCertainAndWent) {
   const Vector3d sight = (kCentre - kStand.position).normalized();
   for (const double sign : {-1.0, 1.0}) {
     const auto found = looks(last_seen({0.02, 0.02, 0.2}, {0, 0, 0.3 * sign}));
-    EXPECT_NEAR(angle_between(axis(found[1]), sight), kParams.spacing, 1e-6);
-    EXPECT_GT(sign * axis(found[1]).z(), std::sin(kParams.spacing) - 1e-6);
+    EXPECT_NEAR(angle_between(place(found[1]), sight), kParams.spacing, 1e-6);
+    EXPECT_GT(sign * place(found[1]).z(), std::sin(kParams.spacing) - 1e-6);
     // Across it the loop is half as wide.
     double slimmest = M_PI;
     for (std::size_t k = 1; k < 8; ++k) {
-      slimmest = std::min(slimmest, angle_between(axis(found[k]), sight));
+      slimmest = std::min(slimmest, angle_between(place(found[k]), sight));
     }
     EXPECT_LT(slimmest, 0.6 * kParams.spacing);
   }

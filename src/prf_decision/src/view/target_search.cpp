@@ -35,7 +35,7 @@ void SearchParams::validate() const {
   using prf_core::require_between;
   require_between("search[0]", to_seconds(time), 0, 600, "s");
   require_between("search[1]", spacing, 0.05, 1, "rad");
-  require_between("search[2]", widest, 0, 1.5, "rad");
+  require_between("search[2]", widest, 0, 1.4, "rad");
 }
 
 void TargetSearch::begin(const Pose& stand, const Pose& goal_in_target,
@@ -43,6 +43,7 @@ void TargetSearch::begin(const Pose& stand, const Pose& goal_in_target,
   const Vector3d sight = last.target.pose.position - stand.position;
   centre_ = {stand.position, looking_along(stand.orientation, sight, goal_in_target)};
   sight_ = sight.norm() > 0 ? sight.normalized() : stand.orientation * Vector3d::UnitZ();
+  distance_ = sight.norm();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - sight_ * sight_.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(across * last.position_covariance() *
                                                             across);
@@ -69,8 +70,11 @@ double TargetSearch::angle_of(const SearchParams& params, const Look& look) cons
 Pose TargetSearch::pose_of(const SearchParams& params, const Look& look) const {
   const double theta = 2 * M_PI * look.place / places(params.spacing, look.loop);
   const Vector3d toward = std::cos(theta) * major_ + std::sin(theta) * sight_.cross(major_);
-  const Eigen::AngleAxisd turn(angle_of(params, look), sight_.cross(toward).normalized());
-  return {centre_.position, (Quaterniond(turn) * centre_.orientation).normalized()};
+  const double off = distance_ * std::tan(angle_of(params, look));
+  const double aside = std::min(kAside * off, kMostAside);
+  const Vector3d along = distance_ * sight_ + (off - aside) * toward;
+  const Quaterniond turn = Quaterniond::FromTwoVectors(sight_, along);
+  return {centre_.position + aside * toward, (turn * centre_.orientation).normalized()};
 }
 
 TargetSearch::Look TargetSearch::after(const SearchParams& params, const Look& look) const {
@@ -91,8 +95,9 @@ void TargetSearch::go_on(const SearchParams& params, const SearchInput& input) {
 
 Pose TargetSearch::look(const SearchParams& params, const SearchInput& input) {
   if (!since_) since_ = input.stamp;
-  const bool is_there =
-      input.hand && input.hand->orientation.angularDistance(wanted_.orientation) <= kThere;
+  const bool is_there = input.hand &&
+                        input.hand->orientation.angularDistance(wanted_.orientation) <= kThere &&
+                        (input.hand->position - wanted_.position).norm() <= kNear;
   if (is_there || !input.follows || input.stamp - *since_ > kPatience) go_on(params, input);
   return wanted_;
 }

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks for a target that is out of sight. The hand stays where it is told and turns, so that it
-// never comes nearer to where the target may be. It looks first at c, where the target was forecast
-// last, then in loops around it, each wider by `spacing`:
+// Looks for a target that is out of sight. The hand looks first at c, where the target was forecast
+// last, then at places around it, across the line of sight, in loops that are each wider by
+// `spacing`. With the place it moves aside, because a target inside something is seen from before
+// it only; so it never comes nearer to c than where it stands. With d from the stand to c, place j
+// of loop k is
 //
-//   look k,j   the line of sight to c turned by rho = k spacing s(theta_j) toward the azimuth theta
+//   off c      o = d tan(rho),  rho = k spacing s(theta_j), toward the azimuth theta_j
+//   the hand   min(kAside o, kMostAside) off its stand toward the same azimuth, and looks at it
 //   s(theta)   sqrt(u' C u / largest), at least kSlimmest: C the covariance of c across the line of
 //              sight, u the unit vector of theta; so the loops are longest where c is least certain
 //
-// and anew from c when the widest is through. The looks of a loop are about `spacing` apart. One is
-// left out when the arm has no joint position for it, or only one that is far from where the joints
-// are, and left when the hand is there, does not follow or takes longer than kPatience.
+// and anew from c when the widest is through. The places of a loop are about `spacing` apart, seen
+// from the stand. One is left out when the arm has no joint position for it, or only one that is
+// far from where the joints are, and left when the hand is there, does not follow or takes longer
+// than kPatience.
 #pragma once
 
 #include <jaco_kinematics/jaco_kinematics.hpp>
@@ -21,7 +25,7 @@ namespace prf_decision {
 
 struct SearchParams {
   Duration time{0};    // after which the target counts as lost, parameter search[0]; 0: no search
-  double spacing = 0;  // rad, of the loops and of the looks of one, search[1]
+  double spacing = 0;  // rad, of the loops and of the places of one, search[1]
   double widest = 0;   // rad, of a loop, search[2]
 
   // std::invalid_argument names the parameter, its value and the bound.
@@ -38,6 +42,9 @@ struct SearchInput {
 class TargetSearch {
  public:
   static constexpr double kSlimmest = 0.5;
+  static constexpr double kAside = 0.6;
+  static constexpr double kMostAside = 0.35;                      // m
+  static constexpr double kNear = 0.05;                           // m, of a look
   static constexpr double kThere = 0.1;                           // rad, of a look
   static constexpr double kFarthest = 1.5;                        // rad, of any joint to a look
   static constexpr Duration kPatience = std::chrono::seconds(3);  // with one look
@@ -64,6 +71,7 @@ class TargetSearch {
 
   Pose centre_;                                       // the hand that looks at c
   Eigen::Vector3d sight_ = Eigen::Vector3d::UnitX();  // from the stand to c, a unit vector
+  double distance_ = 0;                               // m, to c
   Eigen::Vector3d major_ = Eigen::Vector3d::UnitY();  // across it, where c is least certain
   double slimness_ = 1;                               // of the loops, kSlimmest .. 1
   Look look_;
