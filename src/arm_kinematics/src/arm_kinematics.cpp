@@ -2,6 +2,8 @@
 #include "arm_kinematics/arm_kinematics.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <prf_core/bounds.hpp>
 #include <prf_core/require.hpp>
 #include <string>
@@ -98,6 +100,32 @@ JointVector ArmKinematics::self_motion(const JointVector& q, const JointVector& 
   Eigen::Matrix<double, 6, 6> normal = j * j.transpose();
   normal.diagonal().array() += kSingular;
   return wanted - j.transpose() * normal.ldlt().solve(j * wanted);
+}
+
+JointVector ArmKinematics::middle() const {
+  const JointLimits& bounds = limits();
+  JointVector result = JointVector::Zero(bounds.lower.size());
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
+    if (std::isfinite(bounds.lower[i])) result[i] = 0.5 * (bounds.lower[i] + bounds.upper[i]);
+  }
+  return result;
+}
+
+bool ArmKinematics::reaches(const Eigen::Isometry3d& pose) const {
+  return inverse(pose, middle()).solved;
+}
+
+JointVector ArmKinematics::posture_motion(const JointVector& q) const {
+  require_joints(q, "q");
+  const JointLimits& bounds = limits();
+  // Each at most 1: with 1 / sqrt(joints) the norm is, too, and a projection does not lengthen it.
+  JointVector wanted = JointVector::Zero(q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    if (!std::isfinite(bounds.lower[i])) continue;
+    const double half = 0.5 * (bounds.upper[i] - bounds.lower[i]);
+    wanted[i] = std::clamp((middle()[i] - q[i]) / half, -1.0, 1.0);
+  }
+  return self_motion(q, wanted / std::sqrt(static_cast<double>(q.size())));
 }
 
 }  // namespace arm_kinematics

@@ -104,6 +104,7 @@ void set_limits(const urdf::Joint& joint, Eigen::Index i, JointLimits* limits) {
   const double infinity = std::numeric_limits<double>::infinity();
   limits->lower[i] = -infinity;
   limits->upper[i] = infinity;
+  limits->acceleration[i] = infinity;
   if (joint.type == urdf::Joint::CONTINUOUS) return;
   if (!std::isfinite(given.lower)) bad("lower limit", given.lower, "finite");
   if (!std::isfinite(given.upper)) bad("upper limit", given.upper, "finite");
@@ -140,8 +141,8 @@ Chain chain_from_urdf(const std::string& urdf, const std::string& base, const st
   }
 
   Chain chain;
-  for (JointVector* values :
-       {&chain.limits.lower, &chain.limits.upper, &chain.limits.velocity, &chain.limits.effort}) {
+  for (JointVector* values : {&chain.limits.lower, &chain.limits.upper, &chain.limits.velocity,
+                              &chain.limits.effort, &chain.limits.acceleration}) {
     values->resize(count);
   }
   Eigen::Isometry3d pending = Eigen::Isometry3d::Identity();

@@ -145,7 +145,7 @@ Placement ChainKinematics::placement(const JointVector& q) const {
 Eigen::Isometry3d ChainKinematics::forward(const JointVector& q) const { return placement(q).tip; }
 
 IkResult ChainKinematics::inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
-                                  std::uint64_t draws) const {
+                                  const IkSearch& options) const {
   prf_core::require_within("pose", pose.matrix(), prf_core::kMaxPosition, "m");
   require_joints(seed, "seed");
   IkResult unsolved{false, seed, error_between(forward(seed), pose, task())};
@@ -154,9 +154,9 @@ IkResult ChainKinematics::inverse(const Eigen::Isometry3d& pose, const JointVect
 
   Search search{*this, pose, Twist::Ones()};
   search.weight.head<3>() /= 0.5 * reach_;
-  std::mt19937_64 generator(draws);
+  std::mt19937_64 generator(options.draws);
   JointVector q = seed.cwiseMax(limits().lower).cwiseMin(limits().upper);
-  for (int start = 0; start < kMaxStarts; ++start) {
+  for (int start = 0; start < (options.nearest ? 1 : kMaxStarts); ++start) {
     IkResult result;
     if (search.descend(&q, &result.error)) {
       for (Eigen::Index i = 0; i < q.size(); ++i) {

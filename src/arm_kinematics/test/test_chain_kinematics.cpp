@@ -77,7 +77,7 @@ TEST_P(AnyArm, SolvesReachablePosesWithinLimitsFromAfar) {
   int solved = 0;
   for (int i = 0; i < 500; ++i) {
     const Eigen::Isometry3d pose = chain.forward(draw.joints(chain));
-    const IkResult result = chain.inverse(pose, seed, 7);
+    const IkResult result = chain.inverse(pose, seed, {7});
     if (!result.solved) continue;
     ++solved;
     expect_within_limits(chain, result.q);
@@ -95,7 +95,7 @@ TEST_P(AnyArm, StaysNearANearSeed) {
   for (int i = 0; i < 200; ++i) {
     const JointVector q = 0.8 * draw.joints(chain);
     const JointVector seed = (q.array() + 0.01).matrix();
-    const IkResult result = chain.inverse(chain.forward(q), seed, 1);
+    const IkResult result = chain.inverse(chain.forward(q), seed, {1});
     if (!result.solved || (result.q - seed).norm() > 0.2) ++far;
   }
   EXPECT_LE(far, 4) << "singular places alone";
@@ -106,7 +106,7 @@ TEST_P(AnyArm, GivesTheSameForTheSameDraws) {
   Draw draw(4);
   const Eigen::Isometry3d pose = chain.forward(draw.joints(chain));
   const JointVector seed = draw.joints(chain);
-  EXPECT_EQ(chain.inverse(pose, seed, 5).q, chain.inverse(pose, seed, 5).q);
+  EXPECT_EQ(chain.inverse(pose, seed, {5}).q, chain.inverse(pose, seed, {5}).q);
 }
 
 TEST_P(AnyArm, OutOfReachIsNotSolvedAndTheNearestPoseIsALocalMinimum) {
@@ -114,7 +114,7 @@ TEST_P(AnyArm, OutOfReachIsNotSolvedAndTheNearestPoseIsALocalMinimum) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() << 3.0, 0.5, 0.4;
   const JointVector seed = JointVector::Constant(GetParam(), 0.05);
-  const IkResult result = chain.inverse(pose, seed, 1);
+  const IkResult result = chain.inverse(pose, seed, {1});
   EXPECT_FALSE(result.solved);
   EXPECT_EQ(result.q, seed);
 
@@ -158,7 +158,8 @@ TEST(ChainKinematics, FiveJointsFollowPositionAndAxis) {
   const JointVector q = JointVector::LinSpaced(5, 0.3, 0.9);
   Eigen::Isometry3d pose = chain.forward(q);
   pose.rotate(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()));
-  EXPECT_TRUE(chain.inverse(pose, q, 1).solved) << "a turn about the tip's z axis asks for nothing";
+  EXPECT_TRUE(chain.inverse(pose, q, {1}).solved)
+      << "a turn about the tip's z axis asks for nothing";
   pose.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()));
   EXPECT_GT(error_between(chain.forward(q), pose, chain.task()).orientation, 0.09);
 }
@@ -168,7 +169,7 @@ TEST(ChainKinematics, RefusesInputThatMeansNothing) {
   const ChainKinematics chain = arm(6);
   const JointVector q = JointVector::Zero(6);
   const Eigen::Isometry3d bad(Eigen::Matrix4d::Constant(NAN));
-  EXPECT_THROW((void)chain.inverse(bad, q, 1), std::invalid_argument);
+  EXPECT_THROW((void)chain.inverse(bad, q, {1}), std::invalid_argument);
   EXPECT_THROW((void)chain.forward(JointVector::Constant(6, INFINITY)), std::invalid_argument);
   EXPECT_THROW((void)chain.forward(JointVector::Zero(7)), std::invalid_argument);
   EXPECT_THROW((void)chain.nearest(chain.forward(q), q, 0.0), std::invalid_argument);

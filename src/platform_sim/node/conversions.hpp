@@ -116,37 +116,41 @@ constexpr double kLargestForce = 1000.0;    // N
 constexpr double kLargestTorque = 1000.0;   // Nm
 
 struct ArmCommand {
-  ArmVector positions = ArmVector::Zero();   // rad
-  ArmVector velocities = ArmVector::Zero();  // rad/s
+  ArmVector positions;   // rad
+  ArmVector velocities;  // rad/s
 };
 
 // Throws std::invalid_argument that says why the command is refused.
-inline ArmCommand to_arm_command(const trajectory_msgs::JointTrajectory& message) {
-  if (message.joint_names.size() != 7) {
+inline ArmCommand to_arm_command(const trajectory_msgs::JointTrajectory& message,
+                                 const std::vector<std::string>& joints) {
+  const std::string wanted = std::to_string(joints.size());
+  if (message.joint_names.size() != joints.size()) {
     throw std::invalid_argument(std::to_string(message.joint_names.size()) +
-                                " joint names, must be 7");
+                                " joint names, must be " + wanted);
   }
-  if (message.points.size() != 1 || message.points[0].positions.size() != 7 ||
-      message.points[0].velocities.size() != 7) {
+  if (message.points.size() != 1 || message.points[0].positions.size() != joints.size() ||
+      message.points[0].velocities.size() != joints.size()) {
     const std::size_t points = message.points.size();
     const std::string found =
         points != 1 ? std::to_string(points) + " points"
                     : std::to_string(message.points[0].positions.size()) + " positions and " +
                           std::to_string(message.points[0].velocities.size()) + " velocities";
-    throw std::invalid_argument(found + ", must be one point of 7 positions and 7 velocities");
+    throw std::invalid_argument(found + ", must be one point of " + wanted + " positions and " +
+                                wanted + " velocities");
   }
-  ArmCommand command;
-  for (int i = 0; i < 7; ++i) {
-    const std::string name = "j2s7s300_joint_" + std::to_string(i + 1);
+  const auto count = static_cast<Eigen::Index>(joints.size());
+  ArmCommand command{ArmVector::Zero(count), ArmVector::Zero(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::string& name = joints[static_cast<std::size_t>(i)];
     const auto found = std::find(message.joint_names.begin(), message.joint_names.end(), name);
     if (found == message.joint_names.end()) {
-      throw std::invalid_argument(name + " is not among joint_names, all 7 must be");
+      throw std::invalid_argument(name + " is not among joint_names, all " + wanted + " must be");
     }
     const auto index = static_cast<std::size_t>(found - message.joint_names.begin());
     command.positions[i] = message.points[0].positions[index];
     command.velocities[i] = message.points[0].velocities[index];
   }
-  for (int i = 0; i < 7; ++i) {
+  for (Eigen::Index i = 0; i < count; ++i) {
     const std::string joint = " of joint " + std::to_string(i + 1);
     prf_core::require_between("position" + joint, command.positions[i], -kLargestPosition,
                               kLargestPosition, "rad");

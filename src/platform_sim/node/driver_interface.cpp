@@ -16,16 +16,24 @@ namespace platform_sim {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 2000;
-constexpr Eigen::Index kLegJoints = 12;
 constexpr std::int64_t kLegPeriodMs = 40;
 constexpr double kDegree = M_PI / 180.0;
 
-void require_count(std::size_t count) {
-  if (count != 7) throw std::invalid_argument(std::to_string(count) + " joints, must be 7");
+using Joints = std::vector<std::string>;
+
+void require_count(std::size_t count, const Joints& joints) {
+  if (count == joints.size()) return;
+  throw std::invalid_argument(std::to_string(count) + " joints, must be " +
+                              std::to_string(joints.size()));
+}
+
+DriverPoint still(const Joints& joints) {
+  const ArmVector zero = ArmVector::Zero(static_cast<Eigen::Index>(joints.size()));
+  return {zero, zero, 0.0};
 }
 
 void require_usable(const DriverPoint& point) {
-  for (int i = 0; i < 7; ++i) {
+  for (Eigen::Index i = 0; i < point.positions.size(); ++i) {
     const std::string joint = " of joint " + std::to_string(i + 1);
     prf_core::require_between("position" + joint, point.positions[i], -kLargestPosition,
                               kLargestPosition, "rad");
@@ -35,43 +43,43 @@ void require_usable(const DriverPoint& point) {
   prf_core::require_between("time_from_start", point.duration, 0.0, 10.0, "s");
 }
 
-ArmVector group(const std_msgs::Float64MultiArray& message) {
-  require_count(message.data.size());
-  return Eigen::Map<const ArmVector>(message.data.data());
+ArmVector group(const std_msgs::Float64MultiArray& message, const Joints& joints) {
+  require_count(message.data.size(), joints);
+  return Eigen::Map<const ArmVector>(message.data.data(), static_cast<Eigen::Index>(joints.size()));
 }
 
-DriverPoint read_velocities(const std_msgs::Float64MultiArray& message) {
-  DriverPoint point;
-  point.velocities = group(message);
+DriverPoint read_velocities(const std_msgs::Float64MultiArray& message, const Joints& joints) {
+  DriverPoint point = still(joints);
+  point.velocities = group(message, joints);
   return point;
 }
 
-DriverPoint read_positions(const std_msgs::Float64MultiArray& message) {
-  DriverPoint point;
-  point.positions = group(message);
+DriverPoint read_positions(const std_msgs::Float64MultiArray& message, const Joints& joints) {
+  DriverPoint point = still(joints);
+  point.positions = group(message, joints);
   return point;
 }
 
-DriverPoint read_trajectory(const trajectory_msgs::JointTrajectory& message) {
-  const ArmCommand command = to_arm_command(message);
+DriverPoint read_trajectory(const trajectory_msgs::JointTrajectory& message, const Joints& joints) {
+  const ArmCommand command = to_arm_command(message, joints);
   return {command.positions, command.velocities, message.points[0].time_from_start.toSec()};
 }
 
-DriverPoint read_kinova(const prf_ros::kinova::JointVelocity& message) {
-  DriverPoint point;
-  for (int i = 0; i < 7; ++i) {
+DriverPoint read_kinova(const prf_ros::kinova::JointVelocity& message, const Joints& joints) {
+  DriverPoint point = still(joints);
+  for (Eigen::Index i = 0; i < point.velocities.size(); ++i) {
     point.velocities[i] =
         kDegree * static_cast<double>(message.joints[static_cast<std::size_t>(i)]);
   }
   return point;
 }
 
-DriverPoint read_kortex(const prf_ros::kortex::BaseJointSpeeds& message) {
-  require_count(message.joint_speeds.size());
-  DriverPoint point;
+DriverPoint read_kortex(const prf_ros::kortex::BaseJointSpeeds& message, const Joints& joints) {
+  require_count(message.joint_speeds.size(), joints);
+  DriverPoint point = still(joints);
   for (const prf_ros::kortex::JointSpeed& speed : message.joint_speeds) {
-    prf_core::require(speed.joint_identifier < 7, "joint_identifier", speed.joint_identifier,
-                      "0 to 6");
+    prf_core::require(speed.joint_identifier < joints.size(), "joint_identifier",
+                      speed.joint_identifier, "0 to " + std::to_string(joints.size() - 1));
     point.velocities[speed.joint_identifier] = static_cast<double>(speed.value);
   }
   return point;
@@ -105,17 +113,20 @@ DriverNames load_driver_names(prf_ros::PrivateParameters values) {
 }
 
 template <typename Message>
-void DriverInterface::listen(ros::NodeHandle& node, DriverPoint (*read)(const Message&)) {
+void DriverInterface::listen(ros::NodeHandle& node,
+                             DriverPoint (*read)(const Message&, const Joints&)) {
   using Pointer = boost::shared_ptr<const Message>;
   commands_ = node.subscribe<Message>(
       names_.command_topic, kQueueSize,
-      [this, read](const Pointer& message) { receive([&] { return read(*message); }); },
+      [this, read](const Pointer& message) { receive([&] { return read(*message, joints_); }); },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
 DriverInterface::DriverInterface(ros::NodeHandle& node, const DriverNames& names,
+                                 const std::vector<std::string>& joints,
                                  std::function<void()> heard)
     : names_(names),
+      joints_(joints),
       heard_(std::move(heard)),
       arm_states_(node.advertise<sensor_msgs::JointState>(names.state_topic, kQueueSize)),
       leg_states_(node.advertise<sensor_msgs::JointState>("legs/joint_states", kQueueSize)) {
@@ -177,8 +188,11 @@ bool DriverInterface::take_halt() { return std::exchange(halt_, false); }
 void DriverInterface::publish(std::int64_t now_ms, const World& world) {
   const ros::Time stamp = to_stamp(now_ms);
   const auto count = static_cast<Eigen::Index>(world.joint_names().size());
-  if (now_ms % kLegPeriodMs == 0) leg_states_.publish(part_of(stamp, world, 0, kLegJoints));
-  arm_states_.publish(part_of(stamp, world, kLegJoints, count - kLegJoints));
+  const auto legs = count - static_cast<Eigen::Index>(joints_.size());
+  if (legs > 0 && now_ms % kLegPeriodMs == 0) {
+    leg_states_.publish(part_of(stamp, world, 0, legs));
+  }
+  arm_states_.publish(part_of(stamp, world, legs, count - legs));
 }
 
 std::string DriverInterface::without_subscriber() const {

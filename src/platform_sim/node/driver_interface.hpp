@@ -38,7 +38,9 @@ struct DriverNames {
 class DriverInterface {
  public:
   // `heard` is called for each message to the driver, before it is taken or refused.
-  DriverInterface(ros::NodeHandle& node, const DriverNames& names, std::function<void()> heard);
+  // `joints` of the arm, in the driver's order.
+  DriverInterface(ros::NodeHandle& node, const DriverNames& names,
+                  const std::vector<std::string>& joints, std::function<void()> heard);
 
   // What came since the last call, in order.
   [[nodiscard]] std::vector<DriverPoint> take();
@@ -54,11 +56,13 @@ class DriverInterface {
 
  private:
   template <typename Message>
-  void listen(ros::NodeHandle& node, DriverPoint (*read)(const Message&));
+  void listen(ros::NodeHandle& node,
+              DriverPoint (*read)(const Message&, const std::vector<std::string>&));
   void offer_stop(ros::NodeHandle& node);
   void receive(const std::function<DriverPoint()>& read);
 
   DriverNames names_;
+  std::vector<std::string> joints_;
   std::function<void()> heard_;
   ros::Subscriber commands_;
   ros::Publisher arm_states_, leg_states_;

@@ -6,6 +6,7 @@
 #include <prf_core/require.hpp>
 #include <stdexcept>
 
+#include "platform_sim/put_robot.hpp"
 #include "platform_sim/variation.hpp"
 
 namespace platform_sim {
@@ -55,10 +56,6 @@ camera_sim::HandCameraParams read_camera(prf_ros::PrivateParameters& values) {
 }  // namespace
 
 void SimParams::validate() const {
-  for (Eigen::Index i = 0; i < world.arm_start.size(); ++i) {
-    prf_core::require_between("initial_positions[" + std::to_string(i) + "]", world.arm_start[i],
-                              -2.0 * M_PI, 2.0 * M_PI, "rad");
-  }
   prf_core::require_between("response_timeout", response_timeout, 0.1, 3600.0, "s");
   prf_core::require_between("patience", patience, 0.0, response_timeout, "s");
   if (real_time_factor != 0.0) {
@@ -99,10 +96,7 @@ SimParams load_params(prf_ros::PrivateParameters values, const ros::NodeHandle& 
     result.world.driver = read_driver_model(values.section("driver_model"));
   }
   result.world.arm_latency = values.number("arm_latency");
-  const std::vector<double> start = values.numbers("initial_positions", 7);
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    result.world.arm_start[static_cast<Eigen::Index>(i)] = start[i];
-  }
+  put_robot(values.text("robot"), &result.world);
   result.lockstep = values.flag("lockstep");
   result.paused = values.flag("paused");
   result.response_timeout = values.number("response_timeout");

@@ -21,7 +21,6 @@ constexpr std::uint32_t kQueueSize = 1000;
 constexpr std::uint32_t kImageQueueSize = 300;
 const std::string kOpticalFrame = "camera_optical_frame";
 const std::string kTagFrame = "tag_0";
-const std::string kEndEffector = "j2s7s300_end_effector";
 
 std_msgs::Header header_at(std::int64_t now_ms, const std::string& frame) {
   std_msgs::Header header;
@@ -87,10 +86,10 @@ void SimPublishers::publish_ground_truth(std::int64_t now_ms, World& world) {
   const std_msgs::Header header = header_at(now_ms, "world");
   const std::string ground = world.target().on_cart ? "floor" : "platform";
   platform_.publish(to_odometry(header, ground, world.platform()));
-  base_.publish(to_odometry(header, "base_link", world.base()));
+  base_.publish(to_odometry(header, world.base_link(), world.base()));
   tag_.publish(to_pose_stamped(header, world.tag().pose));
   camera_.publish(to_pose_stamped(header, world.frame(kOpticalFrame).pose));
-  end_effector_.publish(to_pose_stamped(header, world.frame(kEndEffector).pose));
+  end_effector_.publish(to_pose_stamped(header, world.frame(world.robot().hand).pose));
   contacts_.publish(to_contact_array(header, world.take_contacts()));
 }
 

@@ -36,8 +36,9 @@ void Responses::note(Response response, const std::string& what) {
                              });
 }
 
-Responses::Responses(ros::NodeHandle& node, Peer peer, bool with_driver)
-    : lockstep_(peer, with_driver), inputs_(node, &updater_) {
+Responses::Responses(ros::NodeHandle& node, Peer peer, bool with_driver,
+                     const std::vector<std::string>& joints)
+    : joints_(joints), lockstep_(peer, with_driver), inputs_(node, &updater_) {
   updater_.setHardwareID("none");
   updater_.add("responses", this, &Responses::diagnose);
   if (peer == Peer::kGuide) {
@@ -55,7 +56,7 @@ Responses::Responses(ros::NodeHandle& node, Peer peer, bool with_driver)
     return;
   }
   listen(Response::kCommand,
-         "trajectory_msgs/JointTrajectory with j2s7s300_joint_1 ... j2s7s300_joint_7",
+         "trajectory_msgs/JointTrajectory with " + joints_.front() + " ... " + joints_.back(),
          &Responses::receive_command);
 }
 
@@ -90,7 +91,7 @@ void Responses::receive_command(const trajectory_msgs::JointTrajectory& message)
   if (!take(Response::kCommand, message.header.stamp)) return;
   command_.reset();
   try {
-    command_ = to_arm_command(message);
+    command_ = to_arm_command(message, joints_);
   } catch (const std::invalid_argument& error) {
     refuse(Response::kCommand, error.what());
   }

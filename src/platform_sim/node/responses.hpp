@@ -26,7 +26,9 @@ namespace platform_sim {
 class Responses {
  public:
   // `with_driver`: joint_command is only noted, the arm is moved by what its driver is sent.
-  Responses(ros::NodeHandle& node, Peer peer, bool with_driver);
+  // `joints` of the arm.
+  Responses(ros::NodeHandle& node, Peer peer, bool with_driver,
+            const std::vector<std::string>& joints);
 
   Lockstep& lockstep() { return lockstep_; }
 
@@ -56,6 +58,7 @@ class Responses {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void refuse(Response response, const std::string& why);
 
+  std::vector<std::string> joints_;
   Lockstep lockstep_;
   std::optional<ArmCommand> command_;
   std::optional<HandWrench> wrench_;

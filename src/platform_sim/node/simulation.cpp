@@ -43,8 +43,7 @@ World make_world(const std::string& urdf, const WorldParams& config) {
   try {
     return World(urdf, config);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string("robot_description or initial_positions: ") +
-                                error.what());
+    throw std::invalid_argument(std::string("robot_description: ") + error.what());
   }
 }
 
@@ -65,10 +64,13 @@ Simulation::Simulation(ros::NodeHandle& node, ros::NodeHandle& private_node,
       // The exposure of the first image does not begin before the simulation does.
       schedule_(params.camera.timing, std::max(kTickMs, tick_ms_)),
       publishers_(node, !params.driver, !params.world.disturb.empty()),
-      responses_(node, peer_of(params), params.driver.has_value()),
+      responses_(node, peer_of(params), params.driver.has_value(), params.world.robot.arm_joints),
       start_service_(private_node.advertiseService("start", &Simulation::on_start, this)),
       started_(!params.paused) {
-  if (params.driver) driver_.emplace(node, *params.driver, [this] { heard_driver(); });
+  if (params.driver) {
+    driver_.emplace(node, *params.driver, params.world.robot.arm_joints,
+                    [this] { heard_driver(); });
+  }
   publishers_.publish_obstacles(world_.target());
   ROS_INFO("seed %s: %s", std::to_string(params.world.seed).c_str(), params.variation.c_str());
 }

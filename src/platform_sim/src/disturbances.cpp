@@ -22,8 +22,8 @@ constexpr double kStumbleDuration = 0.2;               // s
 constexpr double kPeakOfLeastJerk = 1.875;             // largest over mean velocity of CartPush
 constexpr std::size_t kMost = 20;
 
-const std::string kHand = "j2s7s300_end_effector";
-const std::string kBody = "base_link";
+const std::string kHand = "hand";
+const std::string kBody = "body";
 const char* const kToes[] = {"fl_toe", "fr_toe", "rl_toe", "rr_toe"};
 
 std::vector<std::string> words_of(const std::string& text) {

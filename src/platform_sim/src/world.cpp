@@ -11,6 +11,7 @@
 #include "physics/arm_servo.hpp"
 #include "physics/base_carrier.hpp"
 #include "physics/driver_arm.hpp"
+#include "physics/robot_bodies.hpp"
 #include "platform_sim/cart_push.hpp"
 #include "platform_sim/platform_motion.hpp"
 #include "prf_core/require.hpp"
@@ -26,42 +27,6 @@ namespace platform_sim {
 namespace {
 
 constexpr double kSettlingTime = 2.0;  // s, until legs and contacts are at rest
-
-// A stiff contact with damping: Bullet's rigid one creeps. A leg that carries a quarter of the
-// robot sinks in by 1.4 mm; the damping is about critical for its share of the mass.
-constexpr double kFootStiffness = 1e5;  // N/m
-constexpr double kFootDamping = 3e3;    // N s/m
-// Chosen by hand: softer, because the links of the arm are light.
-constexpr double kArmStiffness = 2e4;  // N/m
-constexpr double kArmDamping = 2e2;    // N s/m
-
-const std::string kHandLink = "j2s7s300_end_effector";
-const std::string kArmLinkPrefix = "j2s7s300_link_";
-
-// Groups of what may touch what.
-enum Group : int { kDeck = 1, kTarget = 2, kBody = 4, kLegs = 8, kUpperArm = 16, kForearm = 32 };
-constexpr int kSurroundings = kDeck | kTarget;
-
-std::vector<std::string> arm_joint_names() {
-  std::vector<std::string> names;
-  for (int i = 1; i <= 7; ++i) names.push_back("j2s7s300_joint_" + std::to_string(i));
-  return names;
-}
-
-// Links 3 to 7 can reach body and legs, the ones before are always close to the body.
-RobotSurface robot_surface(const std::string& body, double friction) {
-  if (body.compare(0, kArmLinkPrefix.size(), kArmLinkPrefix) == 0) {
-    const bool is_forearm = body.back() >= '3';
-    const CollisionFilter filter = is_forearm
-                                       ? CollisionFilter{kForearm, kSurroundings | kBody | kLegs}
-                                       : CollisionFilter{kUpperArm, kSurroundings};
-    return {"", filter, friction, kArmStiffness, kArmDamping};
-  }
-  if (body == "base_link") {
-    return {"body", {kBody, kSurroundings | kForearm}, friction, kFootStiffness, kFootDamping};
-  }
-  return {"", {kLegs, kSurroundings | kForearm}, friction, kFootStiffness, kFootDamping};
-}
 
 std::vector<CuboidBody::Part> to_parts(const std::vector<camera_sim::Cuboid>& cuboids) {
   std::vector<CuboidBody::Part> parts;
@@ -92,19 +57,26 @@ class World::Impl {
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
   [[nodiscard]] const camera_sim::TargetBox& target() const { return target_; }
   [[nodiscard]] const std::vector<std::string>& joint_names() const { return joint_names_; }
+  [[nodiscard]] const RobotParts& parts() const { return parts_; }
+  [[nodiscard]] const std::string& base_link() const { return robot_.tree().bodies.front().name; }
   [[nodiscard]] bool fallen() const { return fallen_; }
   ContactRecorder contacts;
 
  private:
+  void require_bolted(const WorldParams& config) const;
   void place_robot(const WorldParams& config);
   void settle();
   void drive_legs();
   void disturb();
   [[nodiscard]] v60_gait::LegObservation observe_legs();
   void judge_fall(const std::vector<ContactPoint>& points);
-  [[nodiscard]] bool is_carried() const { return motion_.carries_base() || body_motion_; }
+  [[nodiscard]] bool is_carried() const {
+    return motion_.carries_base() || body_motion_ || !parts_.on_legs;
+  }
   [[nodiscard]] Eigen::Isometry3d carried_base() const;
 
+  RobotBodies bodies_;
+  RobotParts parts_;
   PlatformMotion motion_;
   std::optional<BodyMotion> body_motion_;
   Eigen::Isometry3d base_start_ = Eigen::Isometry3d::Identity();  // in platform
@@ -133,7 +105,9 @@ class World::Impl {
 };
 
 World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
-    : motion_(config.motion, config.seed),
+    : bodies_(urdf_xml, config.robot.arm_joints),
+      parts_(config.robot),
+      motion_(config.motion, config.seed),
       body_motion_(config.body_motion.empty() ? std::nullopt
                                               : std::optional<BodyMotion>(config.body_motion)),
       target_stands_ashore_(config.target_stands_ashore()),
@@ -147,17 +121,20 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
                {kTarget, ~kSurroundings}, motion_.deck(0.0).pose),
       robot_(scene_, urdf_xml, RobotModel::Base::kFloating,
              [&](const std::string& body) {
-               RobotSurface surface = robot_surface(body, config.friction);
-               if (is_carried()) surface.filter.mask &= ~kDeck;
+               RobotSurface surface = bodies_.surface(body, config.friction);
+               // A carried base is not held by contacts; the arm on a bolted one may hit the deck.
+               const bool bolted = !parts_.on_legs;
+               if (bolted ? surface.name == "body" : is_carried()) surface.filter.mask &= ~kDeck;
                return surface;
              }),
       sensors_(config.seed, kTimeStep) {
-  for (const std::string& name : v60_gait::leg_joint_names()) {
-    leg_joints_.push_back(&robot_.joint(name));
-    joint_names_.push_back(name);
+  if (parts_.on_legs) {
+    for (const std::string& name : v60_gait::leg_joint_names()) {
+      leg_joints_.push_back(&robot_.joint(name));
+      joint_names_.push_back(name);
+    }
   }
-  const std::vector<std::string> arm_joints = arm_joint_names();
-  for (const std::string& name : arm_joints) {
+  for (const std::string& name : parts_.arm_joints) {
     arm_joints_.push_back(&robot_.joint(name));
     joint_names_.push_back(name);
   }
@@ -168,17 +145,29 @@ World::Impl::Impl(const std::string& urdf_xml, const WorldParams& config)
   if (target_.on_cart && !disturbances_.moves_cart()) {
     push_.emplace(CartPush::draw(config.seed));
   }
+  if (!parts_.on_legs) require_bolted(config);
   foot_hold_ = 0.25 * config.friction * robot_.mass() * v60_gait::kGravity;
   place_robot(config);
   if (config.arm_mode == ArmMode::kServo && config.driver) {
-    arm_ = std::make_unique<DriverArm>(scene_, robot_, arm_joints, *config.driver);
+    arm_ = std::make_unique<DriverArm>(scene_, robot_, parts_.arm_joints, *config.driver);
   } else if (config.arm_mode == ArmMode::kServo) {
-    arm_ = std::make_unique<ArmServo>(scene_, robot_, arm_joints, config.servo_gain,
+    arm_ = std::make_unique<ArmServo>(scene_, robot_, parts_.arm_joints, config.servo_gain,
                                       config.arm_latency);
   } else {
-    arm_ = std::make_unique<CompliantArm>(scene_, robot_, arm_joints, kHandLink);
+    arm_ = std::make_unique<CompliantArm>(scene_, robot_, parts_.arm_joints, parts_.hand);
   }
   settle();
+}
+
+// What a robot without legs cannot do.
+void World::Impl::require_bolted(const WorldParams& config) const {
+  prf_core::require(config.gait == "stand", "gait", config.gait, "stand: the robot has no legs");
+  prf_core::require(config.body_motion.empty(), "body_motion", config.body_motion,
+                    "empty: the robot is bolted to the deck");
+  for (const Disturbances::Force& force : disturbances_.forces()) {
+    prf_core::require(force.unit != Disturbances::Unit::kFootHold, "disturb", config.disturb,
+                      "without stumble: the robot has no legs");
+  }
 }
 
 void World::Impl::place_robot(const WorldParams& config) {
@@ -191,11 +180,15 @@ void World::Impl::place_robot(const WorldParams& config) {
     }
     robot_.set_position(joint, position);
   }
-  const v60_gait::Stance stance = v60_gait::find_stance(robot_.tree());
-  for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
-    robot_.set_position(*leg_joints_[i], stance.posture[static_cast<Eigen::Index>(i)]);
+  std::optional<v60_gait::Stance> stance;
+  double height = 0.0;
+  if (parts_.on_legs) {
+    stance = v60_gait::find_stance(robot_.tree());
+    for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
+      robot_.set_position(*leg_joints_[i], stance->posture[static_cast<Eigen::Index>(i)]);
+    }
+    height = robot_.sphere_radius("fl_toe") - stance->toes_in_base[0].z();
   }
-  const double height = robot_.sphere_radius("fl_toe") - stance.toes_in_base[0].z();
   base_start_ = body_motion_
                     ? body_motion_->base_in_platform(0.0)
                     : Eigen::Translation3d(config.base_start_x, config.base_start_y, height) *
@@ -205,14 +198,16 @@ void World::Impl::place_robot(const WorldParams& config) {
   robot_.update_poses();
   if (is_carried()) {
     base_carrier_ = std::make_unique<BaseCarrier>(scene_, robot_);
-    legs_ =
-        std::make_unique<v60_gait::StiffController>(stance.posture, v60_gait::LegVector::Zero());
+    if (stance) {
+      legs_ =
+          std::make_unique<v60_gait::StiffController>(stance->posture, v60_gait::LegVector::Zero());
+    }
   } else {
     v60_gait::BodyModel body;
     body.weight = robot_.mass() * v60_gait::kGravity;
     body.centre_of_mass_in_base =
-        robot_.frame("base_link").pose.inverse() * robot_.centre_of_mass();
-    legs_ = v60_gait::make_leg_controller(config.gait, stance, body, config.friction, config.seed);
+        robot_.frame(base_link()).pose.inverse() * robot_.centre_of_mass();
+    legs_ = v60_gait::make_leg_controller(config.gait, *stance, body, config.friction, config.seed);
   }
 }
 
@@ -239,7 +234,10 @@ void World::Impl::disturb() {
     const double share = Disturbances::share(force, time());
     if (share <= 0.0) continue;
     const double unit = force.unit == Disturbances::Unit::kFootHold ? foot_hold_ : 1.0;
-    push(force.link, share * unit * force.peak);
+    const std::string& link = force.link == "hand"   ? parts_.hand
+                              : force.link == "body" ? base_link()
+                                                     : force.link;
+    push(link, share * unit * force.peak);
   }
 }
 
@@ -265,7 +263,7 @@ v60_gait::LegObservation World::Impl::observe_legs() {
     observation.positions[static_cast<Eigen::Index>(i)] = robot_.position(*leg_joints_[i]);
     observation.velocities[static_cast<Eigen::Index>(i)] = robot_.velocity(*leg_joints_[i]);
   }
-  const FrameState base = robot_.frame("base_link");
+  const FrameState base = robot_.frame(base_link());
   observation.attitude = Eigen::Quaterniond(base.pose.linear());
   observation.angular_velocity = base.pose.linear().transpose() * base.angular;
   if (time() >= 0.0) {
@@ -276,6 +274,7 @@ v60_gait::LegObservation World::Impl::observe_legs() {
 }
 
 void World::Impl::drive_legs() {
+  if (!legs_) return;
   leg_efforts_ = legs_->torques(observe_legs());
   for (std::size_t i = 0; i < leg_joints_.size(); ++i) {
     const v60_gait::RobotJoint& joint = *leg_joints_[i];
@@ -288,7 +287,7 @@ void World::Impl::drive_legs() {
 void World::Impl::judge_fall(const std::vector<ContactPoint>& points) {
   if (is_carried()) return;
   const Eigen::Isometry3d base_in_deck =
-      motion_.deck(time()).pose.inverse() * robot_.frame("base_link").pose;
+      motion_.deck(time()).pose.inverse() * robot_.frame(base_link()).pose;
   const double tilt = std::acos(std::clamp(base_in_deck.linear()(2, 2), -1.0, 1.0));
   const bool body_on_deck =
       std::any_of(points.begin(), points.end(), [](const ContactPoint& point) {
@@ -327,20 +326,19 @@ void World::Impl::push(const std::string& link, const Eigen::Vector3d& force) {
 }
 
 JointStates World::Impl::joints() const {
-  constexpr Eigen::Index kLegJoints = 12;
-  constexpr Eigen::Index kAllJoints = 19;
+  const auto legs = static_cast<Eigen::Index>(leg_joints_.size());
+  const auto arm = static_cast<Eigen::Index>(arm_joints_.size());
   JointStates states;
-  states.positions.resize(kAllJoints);
-  states.velocities.resize(kAllJoints);
-  for (Eigen::Index i = 0; i < kAllJoints; ++i) {
-    const v60_gait::RobotJoint& joint =
-        i < kLegJoints ? *leg_joints_[static_cast<std::size_t>(i)]
-                       : *arm_joints_[static_cast<std::size_t>(i - kLegJoints)];
+  states.positions.resize(legs + arm);
+  states.velocities.resize(legs + arm);
+  for (Eigen::Index i = 0; i < legs + arm; ++i) {
+    const v60_gait::RobotJoint& joint = i < legs ? *leg_joints_[static_cast<std::size_t>(i)]
+                                                 : *arm_joints_[static_cast<std::size_t>(i - legs)];
     states.positions[i] = robot_.position(joint);
     states.velocities[i] = robot_.velocity(joint);
   }
-  states.efforts.resize(kAllJoints);
-  states.efforts << leg_efforts_, arm_->efforts();
+  states.efforts.resize(legs + arm);
+  states.efforts << leg_efforts_.head(legs), arm_->efforts();
   return states;
 }
 
@@ -366,9 +364,11 @@ const std::vector<std::string>& World::gait_names() { return v60_gait::gait_name
 void World::step() { impl_->step(); }
 double World::time() const { return impl_->time(); }
 const std::vector<std::string>& World::joint_names() const { return impl_->joint_names(); }
+const RobotParts& World::robot() const { return impl_->parts(); }
+const std::string& World::base_link() const { return impl_->base_link(); }
 JointStates World::joints() const { return impl_->joints(); }
 FrameState World::frame(const std::string& link) const { return impl_->robot().frame(link); }
-FrameState World::base() const { return impl_->robot().frame("base_link"); }
+FrameState World::base() const { return impl_->robot().frame(impl_->base_link()); }
 FrameState World::platform() const { return impl_->platform(); }
 FrameState World::carrier() const { return impl_->carrier(); }
 const Disturbances& World::disturbances() const { return impl_->disturbances(); }

@@ -38,6 +38,13 @@ void DriverModel::validate() const {
                             "1/s");
 }
 
+void RobotParts::validate() const {
+  const std::size_t count = arm_joints.size();
+  prf_core::require(count >= 1 && count <= ArmVector::MaxSizeAtCompileTime, "arm_joints", count,
+                    "1 to 8 names");
+  prf_core::require(!hand.empty(), "hand", "''", "the name of a link");
+}
+
 const std::vector<std::string>& WorldParams::scenario_names() {
   static const std::vector<std::string> names{"treadmill", kCart, kQuay};
   return names;
@@ -91,6 +98,9 @@ void WorldParams::validate() const {
   prf_core::require_between("servo_gain", servo_gain, 0.1, 200.0, "1/s");
   prf_core::require_between("arm_latency", arm_latency, 0.0, 0.2, "s");
   if (driver) driver->validate();
+  robot.validate();
+  prf_core::require(arm_start.size() == static_cast<Eigen::Index>(robot.arm_joints.size()),
+                    "arm_start's size", arm_start.size(), std::to_string(robot.arm_joints.size()));
   for (int i = 0; i < arm_start.size(); ++i) {
     prf_core::require_between("arm_start[" + std::to_string(i) + "]", arm_start[i], -7.0, 7.0,
                               "rad");

@@ -37,7 +37,7 @@ TEST(Disturbances, AreDrawnFromTheSeedWithinTheirRanges) {
 TEST(Disturbances, ActForTheirTimeAndSayWhat) {
   const Disturbances push("push_hand:40@2.5", 3);
   const Disturbances::Force& force = push.forces().at(0);
-  EXPECT_EQ(force.link, "j2s7s300_end_effector");
+  EXPECT_EQ(force.link, "hand");
   EXPECT_EQ(force.begin, 2.5);
   EXPECT_EQ(Disturbances::share(force, 2.5), 0.0);
   EXPECT_NEAR(Disturbances::share(force, 2.5 + 0.5 * force.duration), 1.0, 1e-12);
@@ -46,7 +46,7 @@ TEST(Disturbances, ActForTheirTimeAndSayWhat) {
   const auto acting = push.acting(2.6);
   ASSERT_EQ(acting.size(), 1u);
   EXPECT_EQ(acting[0].word, "push_hand:40@2.5");
-  EXPECT_EQ(acting[0].what.find("40 N on j2s7s300_end_effector"), 0u) << acting[0].what;
+  EXPECT_EQ(acting[0].what.find("40 N on hand"), 0u) << acting[0].what;
 }
 
 TEST(Disturbances, PushesOfTheCartAddUpAndAreAsFastAsTheySay) {

@@ -178,7 +178,7 @@ TEST(World, TwoWorldsAreBitwiseEqual) {
     ArmVector goal = config.arm_start;
     for (int period = 0; period < 150; ++period) {
       goal[0] += 0.003;
-      world.command_arm(goal, ArmVector::Constant(0.3));
+      world.command_arm(goal, ArmVector::Constant(7, 0.3));
       run(world, 0.01);
     }
     const JointStates joints = world.joints();
@@ -236,11 +236,11 @@ TEST(World, RefusesRobotsThatAreNotTheOneItKnows) {
   EXPECT_THROW(World("<robot", folded_arm()), std::invalid_argument);
   EXPECT_THROW(World("<robot name='r'><link name='base_link'/></robot>", folded_arm()),
                std::invalid_argument);
-  std::string legless = robot_urdf();
-  for (std::size_t at; (at = legless.find("fl_knee")) != std::string::npos;) {
-    legless.replace(at, 7, "fl_knie");
+  std::string three_legged = robot_urdf();
+  for (std::size_t at; (at = three_legged.find("fl_knee")) != std::string::npos;) {
+    three_legged.replace(at, 7, "fl_knie");
   }
-  EXPECT_THROW(World(legless, folded_arm()), std::invalid_argument);
+  EXPECT_THROW(World(three_legged, folded_arm()), std::invalid_argument);
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace {
 
 TEST(World, ArmServoRespectsTheVelocityLimitsOfTheRobot) {
   World world(robot_urdf(), folded_arm());
-  const ArmVector goal = folded_arm().arm_start + 0.5 * ArmVector::Ones();
+  const ArmVector goal = folded_arm().arm_start + 0.5 * ArmVector::Ones(7);
   Eigen::VectorXd fastest = Eigen::VectorXd::Zero(19);
   for (int period = 0; period < 200; ++period) {
-    world.command_arm(goal, ArmVector::Zero());
+    world.command_arm(goal, ArmVector::Zero(7));
     for (int step = 0; step < 10; ++step) {
       world.step();
       fastest = fastest.cwiseMax(world.joints().velocities.cwiseAbs());
@@ -40,7 +40,7 @@ TEST(World, ReportsTheContactOfAHandPushedIntoTheBox) {
   goal[0] -= 1.0;
   double strongest = 0.0;
   for (int period = 0; period < 200; ++period) {
-    world.command_arm(goal, ArmVector::Zero());
+    world.command_arm(goal, ArmVector::Zero(7));
     run(world, 0.01);
     for (const Contact& contact : world.take_contacts()) {
       EXPECT_LT(contact.link_a, contact.link_b);
@@ -66,7 +66,7 @@ TEST(World, ReportsTheContactOfTheForearmWithTheBody) {
   goal[1] = 4.4;  // the hand would come to rest inside the body
   bool touched = false;
   for (int period = 0; period < 400 && !touched; ++period) {
-    world.command_arm(goal, ArmVector::Zero());
+    world.command_arm(goal, ArmVector::Zero(7));
     run(world, 0.01);
     for (const Contact& contact : world.take_contacts()) {
       touched = touched || (contact.link_a == "body" && contact.link_b.rfind("j2s7s300_", 0) == 0);
@@ -98,17 +98,18 @@ TEST(World, RefusesCallsOfTheOtherArmModeAndNonFiniteCommands) {
   World servo(robot_urdf(), folded_arm());
   EXPECT_THROW(servo.apply_hand_wrench(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
                std::invalid_argument);
-  ArmVector command = ArmVector::Zero();
+  ArmVector command = ArmVector::Zero(7);
   command[2] = std::nan("");
-  EXPECT_THROW(servo.command_arm(command, ArmVector::Zero()), std::invalid_argument);
-  EXPECT_THROW(servo.command_arm(ArmVector::Zero(), command), std::invalid_argument);
+  EXPECT_THROW(servo.command_arm(command, ArmVector::Zero(7)), std::invalid_argument);
+  EXPECT_THROW(servo.command_arm(ArmVector::Zero(7), command), std::invalid_argument);
   EXPECT_THROW((void)servo.frame("tail"), std::invalid_argument);
   EXPECT_THROW(servo.push("tail", Eigen::Vector3d::Zero()), std::invalid_argument);
   EXPECT_THROW(servo.push("base_link", {std::nan(""), 0, 0}), std::invalid_argument);
   WorldParams config = folded_arm();
   config.arm_mode = ArmMode::kCompliant;
   World compliant(robot_urdf(), config);
-  EXPECT_THROW(compliant.command_arm(ArmVector::Zero(), ArmVector::Zero()), std::invalid_argument);
+  EXPECT_THROW(compliant.command_arm(ArmVector::Zero(7), ArmVector::Zero(7)),
+               std::invalid_argument);
   EXPECT_THROW(compliant.apply_hand_wrench({std::nan(""), 0, 0}, Eigen::Vector3d::Zero()),
                std::invalid_argument);
 }
@@ -128,7 +129,7 @@ DriverModel kinova() { return {Takes::kVelocities, 0.02, 0.01, 2000, 0.02, 0.0};
 
 DriverPoint velocity(double speed) {
   DriverPoint point;
-  point.velocities = ArmVector::Constant(speed);
+  point.velocities = ArmVector::Constant(7, speed);
   return point;
 }
 
@@ -161,7 +162,7 @@ TEST(WorldDriver, OfAVelocityGroupKeepsTheNewestVelocityForEver) {
 TEST(WorldDriver, OfPositionsLagsBehindByItsServo) {
   World world(robot_urdf(), with({Takes::kPositions, 0.008, 0.0, 10, 0.0, 50.0}));
   DriverPoint point;
-  point.positions = folded_arm().arm_start + ArmVector::Constant(0.01);
+  point.positions = folded_arm().arm_start + ArmVector::Constant(7, 0.01);
   world.command_driver(point);
   run(world, 0.008 + 0.02);  // one time constant
   EXPECT_NEAR(moved(world), 0.01 * (1.0 - std::exp(-1.0)), 1e-3);
@@ -172,7 +173,7 @@ TEST(WorldDriver, OfPositionsLagsBehindByItsServo) {
 TEST(WorldDriver, OfTrajectoriesReachesThePointInItsTime) {
   World world(robot_urdf(), with({Takes::kTrajectories, 0.008, 0.0, 10, 0.0, 100.0}));
   DriverPoint point;
-  point.positions = folded_arm().arm_start + ArmVector::Constant(0.1);
+  point.positions = folded_arm().arm_start + ArmVector::Constant(7, 0.1);
   point.duration = 0.5;
   world.command_driver(point);
   run(world, 0.258);
@@ -196,7 +197,7 @@ TEST(WorldDriver, HaltedComesToRestAndForgetsWhatWaits) {
 TEST(WorldDriver, RefusesWhatCannotBeUsed) {
   World world(robot_urdf(), with(kinova()));
   EXPECT_THROW(world.command_driver(velocity(std::nan(""))), std::invalid_argument);
-  EXPECT_THROW(world.command_arm(ArmVector::Zero(), ArmVector::Zero()), std::invalid_argument);
+  EXPECT_THROW(world.command_arm(ArmVector::Zero(7), ArmVector::Zero(7)), std::invalid_argument);
   World servo(robot_urdf(), folded_arm());
   EXPECT_THROW(servo.command_driver(velocity(0.0)), std::invalid_argument);
   EXPECT_THROW(servo.halt_driver(), std::invalid_argument);

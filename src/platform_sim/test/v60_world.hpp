@@ -7,18 +7,26 @@
 #include <iterator>
 #include <string>
 
+#include "platform_sim/put_robot.hpp"
 #include "platform_sim/world.hpp"
 
 namespace platform_sim {
 
-/// The description of the robot; the build gives its place.
-inline std::string robot_urdf() {
-  std::ifstream file(ROBOT_URDF_FILE);
+/// The description of a robot of prf_robots; the build gives its place.
+inline std::string robot_urdf(const std::string& robot = "jaco_v60") {
+  std::ifstream file(ROBOTS_DIR + std::string("/") + robot + "/robot.urdf");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-inline WorldParams folded_arm() {
+/// The robot in its ready posture.
+inline WorldParams in_world(const std::string& robot) {
   WorldParams params;
+  put_robot(ROBOTS_DIR + std::string("/") + robot, &params);
+  return params;
+}
+
+inline WorldParams folded_arm() {
+  WorldParams params = in_world("jaco_v60");
   params.arm_start << 3.14, 2.3, 0.0, 1.5, 0.0, 3.4, 0.0;
   return params;
 }

@@ -10,17 +10,14 @@
 #include <string>
 
 #include "platform_sim/headless.hpp"
-#include "platform_sim/robot_files.hpp"
+#include "platform_sim/put_robot.hpp"
 
 namespace {
 
 using platform_sim::World;
 
-constexpr char kArmBase[] = "j2s7s300_link_base";
-constexpr char kHand[] = "j2s7s300_end_effector";
-constexpr char kCamera[] = "camera_optical_frame";
-
 struct Recording {
+  prf_robots::Robot robot;
   platform_sim::WorldParams config;
   double duration = 40.0;  // s
   int rate = 100;          // Hz
@@ -33,6 +30,9 @@ Recording read_options(CLI::App& app, int argc, char** argv) {
   recording.config.motion = "light";
   recording.config.seed = 1;
   app.add_option("--out", recording.out, "CSV file to write")->required();
+  std::string robot = "jaco_v60";
+  app.add_option("--robot", robot, "one of prf_robots, or the path of a folder like those")
+      ->capture_default_str();
   app.add_option("--motion", recording.config.motion, "of the platform")->capture_default_str();
   app.add_option("--gait", recording.config.gait)->capture_default_str();
   app.add_option("--seed", recording.config.seed)->capture_default_str();
@@ -40,11 +40,12 @@ Recording read_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--duration", recording.duration, "s")->capture_default_str();
   app.add_option("--rate", recording.rate, "samples a second, divides 1000")->capture_default_str();
   app.parse(argc, argv);
-  recording.config.arm_start = platform_sim::configured_arm_start();
+  recording.robot = platform_sim::put_robot(robot, &recording.config);
   return recording;
 }
 
 std::string header_of(const Recording& recording, const World& world) {
+  const std::string& base = recording.robot.base_link;
   std::ostringstream header;
   header << "# recorded by: rosrun platform_sim record_motion\n"
          << "# motion: " << recording.config.motion << "\n"
@@ -53,10 +54,10 @@ std::string header_of(const Recording& recording, const World& world) {
          << "# seed: " << recording.config.seed << "\n"
          << "# rate_hz: " << recording.rate << "\n"
          << "# fallen: " << (world.fallen() ? "true" : "false") << "\n"
-         << "# tag: pose in " << kArmBase << "\n"
-         << "# base: pose of base_link in platform\n"
-         << "# hand: pose of " << kHand << " in " << kArmBase << "\n"
-         << "# camera: pose of " << kCamera << " in " << kArmBase << "\n"
+         << "# tag: pose in " << base << "\n"
+         << "# base: pose of " << world.base_link() << " in platform\n"
+         << "# hand: pose of " << recording.robot.tip_link << " in " << base << "\n"
+         << "# camera: pose of " << recording.robot.camera_frame << " in " << base << "\n"
          << "# platform: pose in world\n"
          << "# units: s, m, unit quaternion with w >= 0\n"
          << "time";
@@ -79,16 +80,16 @@ void append_pose(const Eigen::Isometry3d& pose, std::string& row) {
   row += text;
 }
 
-std::string row_of(const World& world) {
+std::string row_of(const World& world, const prf_robots::Robot& robot) {
   char time[32];
   std::snprintf(time, sizeof(time), "%.3f", world.time());
   std::string row = time;
   const Eigen::Isometry3d platform = world.platform().pose;
-  const Eigen::Isometry3d to_arm_base = world.frame(kArmBase).pose.inverse();
+  const Eigen::Isometry3d to_arm_base = world.frame(robot.base_link).pose.inverse();
   append_pose(to_arm_base * world.tag().pose, row);
   append_pose(platform.inverse() * world.base().pose, row);
-  append_pose(to_arm_base * world.frame(kHand).pose, row);
-  append_pose(to_arm_base * world.frame(kCamera).pose, row);
+  append_pose(to_arm_base * world.frame(robot.tip_link).pose, row);
+  append_pose(to_arm_base * world.frame(robot.camera_frame).pose, row);
   append_pose(platform, row);
   return row + "\n";
 }
@@ -104,13 +105,13 @@ void open(const std::string& path, std::ofstream& file) {
 
 // Returns whether the robot is still on its feet.
 bool record(const Recording& recording) {
-  World world(platform_sim::installed_robot_description(), recording.config);
+  World world(recording.robot.urdf, recording.config);
   std::ofstream file;
   std::string rows;
   const auto begin = std::chrono::steady_clock::now();
   platform_sim::run_headless(world, recording.duration, recording.rate, [&](const World& now) {
     if (!file.is_open()) open(recording.out, file);
-    rows += row_of(now);
+    rows += row_of(now, recording.robot);
   });
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   file << header_of(recording, world) << rows;

@@ -16,8 +16,9 @@ struct ServoArm {
   static constexpr double kPeriod = 0.01;  // s
 
   JointVector position;
-  JointVector velocity = JointVector::Zero();
-  MotionState pending{position, JointVector::Zero()};  // the command of one period ago
+  JointVector velocity = JointVector::Zero(position.size());
+  MotionState pending{position,
+                      JointVector::Zero(position.size())};  // the command of one period ago
 
   // One period with a new command.
   void run(const MotionState& command) {

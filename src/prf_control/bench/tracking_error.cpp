@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -46,13 +49,13 @@ struct Row {
   bool within_limits;     // every command
 };
 
-JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
+JointVector home() { return (JointVector(7) << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
 
 ArmControllerParams controller_params(const BenchmarkParams& params) {
   return {{params.velocity_scale, params.acceleration, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0},
           0.2,
           0.3,
-          "joint_"};
+          {"joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "joint_7"}};
 }
 
 PoseSetpoint target_at(const Sway& sway, double time) {
@@ -90,7 +93,7 @@ bool keeps_limits(const MotionState& before, const MotionState& after,
 
 // One period to settle, four to measure.
 Row measure(const std::string& name, const Sway& sway, const BenchmarkParams& params) {
-  ArmController controller(controller_params(params));
+  ArmController controller(std::make_shared<jaco_kinematics::JacoArm>(), controller_params(params));
   ServoArm arm{home()};
   const double frequency = sway.front().frequency;
   const double middle = forward(home()).translation().y();
@@ -98,7 +101,7 @@ Row measure(const std::string& name, const Sway& sway, const BenchmarkParams& pa
   Row row{name, frequency, 0, 0, 0, 0, 0, 0, true};
   std::vector<double> errors;
   Phasor hand;
-  MotionState before{home(), JointVector::Zero()};
+  MotionState before{home(), JointVector::Zero(7)};
   for (int i = 0; i < ticks; ++i) {
     const double now = i * ServoArm::kPeriod;
     Setpoint setpoint;

@@ -2,6 +2,8 @@
 // Follows a hand pose that moves to the left at 0.1 m/s for one second, and prints how far the
 // commanded hand is from it.
 #include <iostream>
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <memory>
 #include <prf_control/setpoint_follower.hpp>
 
 int main() {
@@ -16,14 +18,15 @@ int main() {
   params.orientation_weight = 0.2;
   params.branch_patience = 1.0;
 
-  JointVector measured;  // rad
+  JointVector measured(7);  // rad
   measured << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3;
-  SetpointFollower follower(params);
+  const auto arm = std::make_shared<jaco_kinematics::JacoArm>();
+  SetpointFollower follower(arm, params);
   follower.start(measured);
 
   constexpr double kPeriod = 0.01;  // s
   PoseSetpoint setpoint;
-  setpoint.hand_in_base = jaco_kinematics::forward(measured);
+  setpoint.hand_in_base = arm->forward(measured);
   setpoint.linear_velocity.y() = 0.1;
   FollowerStep step;
   for (int tick = 0; tick < 100; ++tick) {

@@ -28,16 +28,16 @@ std::string drop_between(const JoinerCounts& before, const JoinerCounts& after) 
   return "";
 }
 
-bool is_outside(const ControlResult& result) {
-  return result.command && joints_outside(result.command->position).maxCoeff() > 1e-9;
+bool is_outside(const ControlResult& result, const JointLimits& limits) {
+  return result.command && joints_outside(result.command->position, limits).maxCoeff() > 1e-9;
 }
 
 }  // namespace
 
 ArmControllerNode::ArmControllerNode(ros::NodeHandle& node, const NodeParams& params)
     : params_(params),
-      joint_names_(params.joint_names()),
-      controller_(params.controller),
+      joint_names_(params.robot.joints),
+      controller_(params.robot.kinematics, params.controller),
       reconfigurable_(ros::NodeHandle("~"),
                       {{"velocity_scale", params.controller.follower.velocity_scale,
                         "share of the URDF's joint velocity limits"},
@@ -56,7 +56,7 @@ ArmControllerNode::ArmControllerNode(ros::NodeHandle& node, const NodeParams& pa
   inputs_.subscribe<trajectory_msgs::MultiDOFJointTrajectory>(
       {kSetpoint,
        "trajectory_msgs/MultiDOFJointTrajectory with the stamp of each joint_states, " +
-           params.hand_frame + " in " + params.planning_frame,
+           params.robot.tip_link + " in " + params.robot.base_link,
        1.0 / params.tick_period},
       kQueue, [this](const trajectory_msgs::MultiDOFJointTrajectoryConstPtr& message) {
         on_setpoint(*message);
@@ -162,7 +162,8 @@ void ArmControllerNode::summarise(diagnostic_updater::DiagnosticStatusWrapper& o
                 "no control tick: no joint_states with all of " + listed(joint_names_));
   } else if (last_.code == ControlCode::kFailing) {
     out.summary(Level::ERROR, last_.reason);
-  } else if (last_.code > ControlCode::kLimited || is_outside(last_)) {
+  } else if (last_.code > ControlCode::kLimited ||
+             is_outside(last_, params_.robot.kinematics->limits())) {
     out.summary(Level::WARN, last_.reason);
   } else {
     out.summary(Level::OK, last_.reason.empty() ? "fine" : last_.reason);

@@ -18,8 +18,7 @@ int main(int argc, char** argv) {
   return prf_ros::run([&node] {
     const prf_control::NodeParams params = prf_control::load_params(ros::NodeHandle("~"));
     prf_control::require_same_arm(
-        prf_control::wait_for_robot_description(node, kDescriptionPatience),
-        {params.joint_names(), params.planning_frame, params.hand_frame});
+        prf_control::wait_for_robot_description(node, kDescriptionPatience), params.robot);
     prf_control::ArmControllerNode controller(node, params);
     ros::spin();
   });

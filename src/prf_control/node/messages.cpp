@@ -22,7 +22,7 @@ JointReading to_sample(const sensor_msgs::JointState& message,
                        const std::vector<std::string>& joint_names) {
   const auto stamp = prf_ros::usable_stamp(message.header.stamp);
   if (!stamp) return {std::nullopt, "its stamp is beyond the bounds of time"};
-  JointVector position;
+  JointVector position(static_cast<Eigen::Index>(joint_names.size()));
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < joint_names.size(); ++i) {
     const std::string& name = joint_names[i];
@@ -51,12 +51,12 @@ JointReading to_sample(const sensor_msgs::JointState& message,
 Setpoint to_setpoint(const trajectory_msgs::MultiDOFJointTrajectory& message,
                      const NodeParams& params) {
   if (message.points.empty()) return hold_setpoint();
-  if (message.header.frame_id != params.planning_frame) {
+  if (message.header.frame_id != params.robot.base_link) {
     return refused_setpoint("frame_id " + prf_core::quoted(message.header.frame_id) + " must be '" +
-                            params.planning_frame + "'");
+                            params.robot.base_link + "'");
   }
-  if (message.joint_names != std::vector<std::string>{params.hand_frame}) {
-    return refused_setpoint("joint_names must be ['" + params.hand_frame + "']");
+  if (message.joint_names != std::vector<std::string>{params.robot.tip_link}) {
+    return refused_setpoint("joint_names must be ['" + params.robot.tip_link + "']");
   }
   const auto& point = message.points.front();
   if (message.points.size() != 1 || point.transforms.size() != 1 || point.velocities.size() > 1) {
@@ -73,7 +73,7 @@ trajectory_msgs::JointTrajectory command_message(const ControlResult& result,
                                                  const NodeParams& params) {
   trajectory_msgs::JointTrajectory message;
   message.header.stamp = prf_ros::to_ros_time(result.stamp);
-  message.joint_names = params.joint_names();
+  message.joint_names = params.robot.joints;
   message.points.resize(1);
   auto& point = message.points.front();
   const auto& [position, velocity] = result.command.value();

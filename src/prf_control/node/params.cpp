@@ -9,18 +9,6 @@ namespace prf_control {
 void NodeParams::validate() const {
   controller.validate();
   prf_core::require_between("tick_period", tick_period, 0.001, 0.1, "s");
-  const auto require_name = [](const std::string& parameter, const std::string& name) {
-    prf_core::require(!name.empty(), parameter, "''", "not empty");
-  };
-  require_name("joint_prefix", controller.joint_prefix);
-  require_name("planning_frame", planning_frame);
-  require_name("hand_frame", hand_frame);
-}
-
-std::vector<std::string> NodeParams::joint_names() const {
-  std::vector<std::string> names;
-  for (int i = 1; i <= 7; ++i) names.push_back(controller.joint_prefix + std::to_string(i));
-  return names;
 }
 
 NodeParams load_params(const ros::NodeHandle& private_handle) {
@@ -37,11 +25,11 @@ NodeParams load_params(const ros::NodeHandle& private_handle) {
   follower.branch_patience = values.number("branch_patience");
   params.controller.max_tracking_error = values.number("max_tracking_error");
   params.controller.max_wait = values.number("max_wait");
-  params.controller.joint_prefix = values.text("joint_prefix");
   params.tick_period = values.number("tick_period");
-  params.planning_frame = values.text("planning_frame");
-  params.hand_frame = values.text("hand_frame");
+  const std::string robot = values.text("robot");
   values.refuse_unknown();
+  params.robot = prf_robots::load_robot(prf_robots::robot_folder(robot));
+  params.controller.joints = params.robot.joints;
   params.validate();
   return params;
 }

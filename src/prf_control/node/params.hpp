@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameters of arm_controller: what the controller needs, and the names in its messages.
+// The parameters of arm_controller: what the controller needs, and the robot, which has the names
+// in its messages.
 #pragma once
 
 #include <ros/node_handle.h>
 
-#include <string>
+#include <prf_robots/robot.hpp>
 #include <vector>
 
 #include "prf_control/arm_controller.hpp"
@@ -13,13 +14,11 @@ namespace prf_control {
 
 struct NodeParams {
   ArmControllerParams controller;
-  double tick_period;          // [s], 0.002 to 0.02; time_from_start of each command, and the rate
-                               // at which joint_states is expected
-  std::string planning_frame;  // header.frame_id that a set-point must have
-  std::string hand_frame;      // the one name in its joint_names
+  prf_robots::Robot robot;
+  double tick_period;  // [s], 0.002 to 0.02; time_from_start of each command, and the rate at which
+                       // joint_states is expected
 
   void validate() const;
-  [[nodiscard]] std::vector<std::string> joint_names() const;  // from base to hand
 };
 
 // Throws std::invalid_argument for a parameter that is missing, unknown or out of bounds.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
+#include <utility>
 
 #include "prf_control/command_gate.hpp"
 #include "prf_control/nearest_pose.hpp"
@@ -44,10 +45,14 @@ void ArmControllerParams::validate() const {
   prf_core::require_between("max_wait", max_wait, 0.02, 5.0, "s");
 }
 
-ArmController::ArmController(const ArmControllerParams& params)
+ArmController::ArmController(Arm arm, const ArmControllerParams& params)
     : params_(validated(params)),
       joiner_(prf_core::from_seconds(params_.max_wait)),
-      follower_(params_.follower) {}
+      follower_(std::move(arm), params_.follower) {
+  const auto wanted = static_cast<std::size_t>(follower_.arm().joint_count());
+  prf_core::require(params_.joints.size() == wanted, "joints", params_.joints.size(),
+                    std::to_string(wanted) + " names");
+}
 
 void ArmController::tune(double velocity_scale, double acceleration) {
   FollowerParams tuned = params_.follower;
@@ -106,15 +111,15 @@ ArmController::Tick ArmController::tick_of(const TickJoiner::Joined& joined) {
     return tick;
   }
   tick.reported = joined.primary.position;
-  tick.measured = unwrapped(*tick.reported);
+  tick.measured = unwrapped(*tick.reported, joint_limits());
   int joint = 0;
-  if (joints_outside(*tick.measured).maxCoeff(&joint) > kFarOutside) {
+  if (joints_outside(*tick.measured, joint_limits()).maxCoeff(&joint) > kFarOutside) {
     tick.fault = reasons().outside(*tick.measured, joint) + ": is not moved from there";
   }
   return tick;
 }
 
-Reasons ArmController::reasons() const { return {params_.joint_prefix}; }
+Reasons ArmController::reasons() const { return {params_.joints, joint_limits()}; }
 
 ControlResult ArmController::process(const TickJoiner::Joined& joined) {
   ++counts_.ticks;
@@ -152,7 +157,7 @@ ControlResult ArmController::process(const TickJoiner::Joined& joined) {
 }
 
 void ArmController::follow_into_turn(const JointVector& measured) {
-  const JointVector turns = turns_between(follower_.state().position, measured);
+  const JointVector turns = turns_between(follower_.state().position, measured, joint_limits());
   if (turns.isZero(0.0)) return;
   ++counts_.other_turns;
   follower_.move_by_turns(turns);
@@ -175,7 +180,7 @@ void ArmController::restart(const Tick& tick, const std::string& reason, Control
   result.reason = "starts from the measured joints: " + reason +
                   reasons().turns(*tick.reported, *tick.measured);
   int joint = 0;
-  if (joints_outside(*tick.measured).maxCoeff(&joint) > 0.0) {
+  if (joints_outside(*tick.measured, joint_limits()).maxCoeff(&joint) > 0.0) {
     result.reason += "; " + reasons().outside(*tick.measured, joint);
   }
 }
@@ -199,7 +204,7 @@ void ArmController::hold(const Tick& tick, ControlResult& result) {
     result.reason = tick.setpoint->refusal;
   }
   int joint = 0;
-  if (joints_outside(follower_.state().position).maxCoeff(&joint) > 0.0) {
+  if (joints_outside(follower_.state().position, joint_limits()).maxCoeff(&joint) > 0.0) {
     result.reason += (result.reason.empty() ? "" : "; ") +
                      reasons().outside(follower_.state().position, joint) + ": holds there";
   }
@@ -224,7 +229,7 @@ void ArmController::pass_gate(const Tick& tick, const std::optional<MotionState>
   input.measured = tick.measured;
   input.dt = tick.dt;
   input.anew = result.restarted;
-  input.before = result.restarted ? MotionState{*tick.measured, JointVector::Zero()} : *last;
+  input.before = result.restarted ? at_rest(*tick.measured) : *last;
   const GateOutput output =
       prf_control::pass_gate(input, follower_.limits(), params_.max_tracking_error);
   result.command = output.command;
@@ -245,8 +250,8 @@ void ArmController::measure_error(const Tick& tick, const std::optional<MotionSt
   // Where the command has begun anew, the hand is compared with where it should have been.
   const MotionState& held = result.restarted && last ? *last : *result.command;
   const Eigen::Isometry3d wanted =
-      tick.has_pose() ? tick.setpoint->pose.hand_in_base : jaco_kinematics::forward(held.position);
-  const auto error = pose_error(jaco_kinematics::forward(*measured_), wanted);
+      tick.has_pose() ? tick.setpoint->pose.hand_in_base : follower_.arm().forward(held.position);
+  const auto error = pose_error(follower_.arm().forward(*measured_), wanted);
   result.position_error = error.head<3>().norm();
   result.orientation_error = error.tail<3>().norm();
 }

@@ -82,7 +82,7 @@ GateOutput pass_gate(const GateInput& input, const MotionLimits& limits, double 
   output.command = input.before;
   if (!input.anew) output.command = step_to_rest(input.before, input.dt, limits).state;
   if (is_too_far(output.command, input, limits, max_lag)) {
-    output.command = {*input.measured, JointVector::Zero()};
+    output.command = at_rest(*input.measured);
     output.anew = true;
   }
   return output;

@@ -85,11 +85,12 @@ Share common_share(const JointVector& change, const JointVector& bound) {
 LimitedStep step_with_velocity(const MotionState& state, const JointVector& wanted, double dt,
                                const MotionLimits& limits) {
   LimitedStep step;
+  step.state = state;
   const Share speed = common_share(wanted, limits.velocity);
   const JointVector allowed = speed.value * wanted;
 
   const JointVector change = allowed - state.velocity;
-  JointVector largest_change;
+  JointVector largest_change(change.size());
   for (int i = 0; i < change.size(); ++i) {
     largest_change[i] = velocity_change(state.velocity[i], change[i] > 0.0, i, dt, limits);
   }
@@ -147,7 +148,7 @@ double approach_speed(double distance, double deceleration, double dt) {
 VelocityRange allowed_velocities(const MotionState& state, double dt, const MotionLimits& limits) {
   check(state, "state");
   check_dt(dt);
-  VelocityRange range;
+  VelocityRange range{state.velocity, state.velocity};
   for (int i = 0; i < range.lower.size(); ++i) {
     const double v = state.velocity[i];
     const double least = v - velocity_change(v, false, i, dt, limits);
@@ -190,7 +191,7 @@ LimitedStep step_toward(const MotionState& state, const MotionState& goal, doubl
 LimitedStep step_to_rest(const MotionState& state, double dt, const MotionLimits& limits) {
   check(state, "state");
   check_dt(dt);
-  return step_with_velocity(state, JointVector::Zero(), dt, limits);
+  return step_with_velocity(state, JointVector::Zero(state.position.size()), dt, limits);
 }
 
 }  // namespace prf_control

@@ -34,8 +34,7 @@ JointSample checked_joints(prf_core::Stamp stamp, const JointVector& position,
   return sample;
 }
 
-JointVector unwrapped(const JointVector& reported) {
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
+JointVector unwrapped(const JointVector& reported, const JointLimits& limits) {
   JointVector result = reported;
   for (int i = 0; i < result.size(); ++i) {
     const double q = reported[i];
@@ -45,9 +44,9 @@ JointVector unwrapped(const JointVector& reported) {
   return result;
 }
 
-JointVector turns_between(const JointVector& command, const JointVector& measured) {
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
-  JointVector turns = JointVector::Zero();
+JointVector turns_between(const JointVector& command, const JointVector& measured,
+                          const JointLimits& limits) {
+  JointVector turns = JointVector::Zero(command.size());
   for (int i = 0; i < turns.size(); ++i) {
     const bool continuous = std::isinf(limits.upper[i]);
     if (continuous) turns[i] = kTurn * std::round((measured[i] - command[i]) / kTurn);
@@ -55,8 +54,7 @@ JointVector turns_between(const JointVector& command, const JointVector& measure
   return turns;
 }
 
-JointVector joints_outside(const JointVector& position) {
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
+JointVector joints_outside(const JointVector& position, const JointLimits& limits) {
   return (limits.lower - position).cwiseMax(position - limits.upper).cwiseMax(0.0);
 }
 

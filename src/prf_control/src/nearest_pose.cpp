@@ -12,7 +12,8 @@
 namespace prf_control {
 namespace {
 
-using jaco_kinematics::JointVector;
+using arm_kinematics::ArmKinematics;
+using arm_kinematics::JointVector;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
 // Bounds the work of one call; a search that has not ended goes on from there in the next tick.
@@ -23,6 +24,7 @@ constexpr double kTurn = 2.0 * M_PI;
 constexpr double kFar = 100.0;  // [rad] for a joint in the search
 
 struct Problem {
+  const ArmKinematics& arm;
   JointVector start;
   Eigen::Isometry3d hand_in_base;
   ErrorVector weight;
@@ -34,30 +36,32 @@ struct Problem {
 // inverse left Jacobian of SO(3), so the gradient is -J^T W^2 e exactly.
 double cost(const JointVector& q, const Problem& problem, JointVector* gradient) {
   const ErrorVector error =
-      pose_error(jaco_kinematics::forward(q), problem.hand_in_base).cwiseProduct(problem.weight);
+      pose_error(problem.arm.forward(q), problem.hand_in_base).cwiseProduct(problem.weight);
   if (gradient != nullptr) {
     *gradient =
-        -kCostScale * jaco_kinematics::jacobian(q).transpose() * error.cwiseProduct(problem.weight);
+        -kCostScale * problem.arm.jacobian(q).transpose() * error.cwiseProduct(problem.weight);
   }
   return 0.5 * kCostScale * error.squaredNorm();
 }
 
 // Continuous joints that are farther than `bound` from the start, in the turn nearest to it: the
 // search may try any angle, and the arm need not turn more than once.
-JointVector near_start(const JointVector& q, const JointVector& start, double bound) {
+JointVector near_start(const JointVector& q, const Problem& problem, double bound) {
   JointVector result = q;
+  const JointVector& start = problem.start;
   for (int i = 0; i < q.size(); ++i) {
-    const bool continuous = std::isinf(jaco_kinematics::jaco_joint_limits().upper[i]);
+    const bool continuous = std::isinf(problem.arm.limits().upper[i]);
     const double way = q[i] - start[i];
     if (continuous && !(std::abs(way) <= bound)) result[i] = start[i] + std::remainder(way, kTurn);
   }
   return result;
 }
 
-double objective(unsigned /*n*/, const double* x, double* gradient, void* data) {
+double objective(unsigned n, const double* x, double* gradient, void* data) {
   Problem& problem = *static_cast<Problem*>(data);
-  const JointVector q = near_start(Eigen::Map<const JointVector>(x), problem.start, kFar);
-  JointVector slope = JointVector::Zero();
+  const JointVector q =
+      near_start(Eigen::Map<const JointVector>(x, static_cast<Eigen::Index>(n)), problem, kFar);
+  JointVector slope = JointVector::Zero(q.size());
   if (!q.allFinite()) {
     if (gradient != nullptr) std::copy(slope.data(), slope.data() + slope.size(), gradient);
     return HUGE_VAL;
@@ -82,8 +86,8 @@ ErrorVector pose_error(const Eigen::Isometry3d& from, const Eigen::Isometry3d& t
   return error;
 }
 
-JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVector& start,
-                         double orientation_weight) {
+JointVector nearest_pose(const ArmKinematics& arm, const Eigen::Isometry3d& hand_in_base,
+                         const JointVector& start, double orientation_weight) {
   if (!hand_in_base.matrix().allFinite() || !start.allFinite()) {
     throw std::invalid_argument("nearest_pose: pose and start must be finite");
   }
@@ -91,10 +95,8 @@ JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVecto
     throw std::invalid_argument("orientation_weight = " + std::to_string(orientation_weight) +
                                 " m/rad, must be finite and > 0");
   }
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
-  Problem problem;
-  problem.start = start;
-  problem.hand_in_base = hand_in_base;
+  const auto& limits = arm.limits();
+  Problem problem{arm, start, hand_in_base, {}, start, 0.0};
   problem.weight << 1.0, 1.0, 1.0, orientation_weight, orientation_weight, orientation_weight;
   problem.best = start.cwiseMax(limits.lower).cwiseMin(limits.upper);
   problem.best_cost = cost(problem.best, problem, nullptr);
@@ -113,7 +115,7 @@ JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base, const JointVecto
   } catch (const std::runtime_error&) {
     // SLSQP ends so at the limit of the arithmetic; the best position it has seen stands.
   }
-  return near_start(problem.best, start, M_PI);
+  return near_start(problem.best, problem, M_PI);
 }
 
 }  // namespace prf_control

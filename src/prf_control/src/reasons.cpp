@@ -5,7 +5,9 @@
 
 namespace prf_control {
 
-std::string Reasons::name(int joint) const { return joint_prefix + std::to_string(joint + 1); }
+const std::string& Reasons::name(int joint) const {
+  return joints[static_cast<std::size_t>(joint)];
+}
 
 std::string Reasons::leap(double gap, double bound) const {
   std::ostringstream text;
@@ -20,7 +22,6 @@ std::string Reasons::lag(int joint, double lag, double bound) const {
 }
 
 std::string Reasons::outside(const JointVector& position, int joint) const {
-  const auto& limits = jaco_kinematics::jaco_joint_limits();
   std::ostringstream text;
   text << name(joint) << " at " << position[joint] << " rad is outside its limits ["
        << limits.lower[joint] << ", " << limits.upper[joint] << "] rad";

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "prf_control/setpoint_follower.hpp"
 
 namespace prf_control {
 
 struct Reasons {
-  std::string joint_prefix;
+  const std::vector<std::string>& joints;
+  const arm_kinematics::JointLimits& limits;
 
   [[nodiscard]] std::string leap(double gap, double bound) const;
   [[nodiscard]] std::string lag(int joint, double lag, double bound) const;
@@ -19,7 +21,7 @@ struct Reasons {
   [[nodiscard]] std::string step(const FollowerStep& step, double max_joint_step) const;
 
  private:
-  [[nodiscard]] std::string name(int joint) const;
+  [[nodiscard]] const std::string& name(int joint) const;
 };
 
 }  // namespace prf_control

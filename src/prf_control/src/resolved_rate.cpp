@@ -10,10 +10,11 @@ namespace {
 constexpr int kMaxSweeps = 1000;      // ours: tens are used; bounds the time of a tick
 constexpr double kConverged = 1e-10;  // [rad/s] of every joint; the commands' rounding is 1e-11
 
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                             arm_kinematics::kMaxJoints, arm_kinematics::kMaxJoints>;
 
 // Coordinate descent on v^T H v / 2 - g^T v, which converges from anywhere as H is definite.
-JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const VelocityRange& range) {
+JointVector bounded_minimum(const Square& H, const JointVector& g, const VelocityRange& range) {
   JointVector v = H.ldlt().solve(g).cwiseMax(range.lower).cwiseMin(range.upper);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double change = 0.0;
@@ -33,8 +34,9 @@ JointVector bounded_minimum(const Matrix7& H, const JointVector& g, const Veloci
 JointVector resolved_rate(const ResolvedRateProblem& problem, const VelocityRange& range) {
   Twist weight;
   weight << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(problem.orientation_weight);
-  const jaco_kinematics::Jacobian A = weight.asDiagonal() * problem.jacobian;
-  const Matrix7 H = A.transpose() * A + kNullSpaceWeight * Matrix7::Identity();
+  const arm_kinematics::Jacobian A = weight.asDiagonal() * problem.jacobian;
+  Square H = A.transpose() * A;
+  H.diagonal().array() += kNullSpaceWeight;
   const JointVector g = A.transpose() * weight.cwiseProduct(problem.twist) +
                         kNullSpaceWeight * problem.null_space_velocity;
   return bounded_minimum(H, g, range);

@@ -7,6 +7,7 @@
 #include <prf_core/require.hpp>
 #include <prf_core/se3.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "prf_control/measured_joints.hpp"
 #include "prf_control/nearest_pose.hpp"
@@ -15,9 +16,7 @@
 namespace prf_control {
 namespace {
 
-using jaco_kinematics::IkParams;
-using jaco_kinematics::IkResult;
-using jaco_kinematics::IkStatus;
+using arm_kinematics::IkResult;
 using ErrorVector = Eigen::Matrix<double, 6, 1>;
 
 // The constants below are ours; the tests named say what they achieve.
@@ -35,10 +34,13 @@ constexpr double kNullSpaceRate = 2.0;
 // [rad] A joint that is farther outside its limits than rounding goes back inside.
 constexpr double kOutside = 1e-9;
 
-MotionLimits limits_of(const FollowerParams& params, double braking) {
-  const auto& joints = jaco_kinematics::jaco_joint_limits();
+MotionLimits limits_of(const arm_kinematics::JointLimits& joints, const FollowerParams& params,
+                       double braking) {
+  const auto most = [&](double acceleration) -> JointVector {
+    return joints.acceleration.cwiseMin(acceleration);
+  };
   MotionLimits limits{joints.lower, joints.upper, params.velocity_scale * joints.velocity,
-                      JointVector::Constant(params.acceleration), JointVector::Constant(braking)};
+                      most(params.acceleration), most(braking)};
   limits.validate();
   return limits;
 }
@@ -72,18 +74,19 @@ void FollowerParams::validate() const {
   require_between("branch_patience", branch_patience, 0.01, 60.0, "s");
 }
 
-SetpointFollower::SetpointFollower(const FollowerParams& params) { tune(params); }
+SetpointFollower::SetpointFollower(Arm arm, const FollowerParams& params) : arm_(std::move(arm)) {
+  if (!arm_) throw std::invalid_argument("a follower needs an arm");
+  tune(params);
+}
 
 void SetpointFollower::tune(const FollowerParams& params) {
   params.validate();
   params_ = params;
   braking_ = std::max(braking_, params.acceleration);
-  limits_ = limits_of(params_, braking_);
+  limits_ = limits_of(arm_->limits(), params_, braking_);
 }
 
-void SetpointFollower::start(const JointVector& measured) {
-  start(MotionState{measured, JointVector::Zero()});
-}
+void SetpointFollower::start(const JointVector& measured) { start(at_rest(measured)); }
 
 void SetpointFollower::start(const MotionState& state) {
   if (!state.position.allFinite() || !state.velocity.allFinite()) {
@@ -114,13 +117,13 @@ void SetpointFollower::forget_setpoints() {
 
 FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
   FollowerStep step;
-  if ((joints_outside(state().position).array() > kOutside).any()) {
+  if ((joints_outside(state().position, arm_->limits()).array() > kOutside).any()) {
     step = step_inside(dt);
   } else {
     step = step_toward_goal(setpoint, choose_goal(setpoint, dt), dt);
   }
   const ErrorVector deviation =
-      pose_error(jaco_kinematics::forward(step.motion.state.position), setpoint.hand_in_base);
+      pose_error(arm_->forward(step.motion.state.position), setpoint.hand_in_base);
   step.position_deviation = deviation.head<3>().norm();
   step.orientation_deviation = deviation.tail<3>().norm();
   state_ = step.motion.state;
@@ -130,11 +133,11 @@ FollowerStep SetpointFollower::follow(const PoseSetpoint& setpoint, double dt) {
 FollowerStep SetpointFollower::step_inside(double dt) {
   FollowerStep step;
   step.goal = GoalKind::kInside;
-  step.jump = joints_outside(state().position).maxCoeff(&step.jump_joint);
+  step.jump = joints_outside(state().position, arm_->limits()).maxCoeff(&step.jump_joint);
   MotionLimits limits = limits_;
   limits.velocity *= kSlowly;
   const JointVector inside = state().position.cwiseMax(limits.lower).cwiseMin(limits.upper);
-  step.motion = step_toward(state(), {inside, JointVector::Zero()}, dt, limits);
+  step.motion = step_toward(state(), at_rest(inside), dt, limits);
   forget_setpoints();
   return step;
 }
@@ -168,7 +171,7 @@ FollowerStep SetpointFollower::hold(double dt) {
 LimitedStep SetpointFollower::resolved_rate_step(const PoseSetpoint& setpoint,
                                                  const MotionState& goal, double dt) const {
   const JointVector& q = state().position;
-  const ErrorVector error = pose_error(jaco_kinematics::forward(q), moved_back(setpoint, dt));
+  const ErrorVector error = pose_error(arm_->forward(q), moved_back(setpoint, dt));
   ErrorVector twist;
   twist << setpoint.linear_velocity, setpoint.angular_velocity;
   const double size =
@@ -177,7 +180,7 @@ LimitedStep SetpointFollower::resolved_rate_step(const PoseSetpoint& setpoint,
   const JointVector null_space_velocity =
       goal.velocity + kNullSpaceRate * (goal.position - goal.velocity * dt - q);
   const JointVector velocity =
-      resolved_rate({jaco_kinematics::jacobian(q), twist + rate * error,
+      resolved_rate({arm_->jacobian(q), twist + rate * error,
                      null_space_velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity),
                      params_.orientation_weight},
                     allowed_velocities(state(), dt, limits_));
@@ -206,13 +209,13 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
 
   // First the solution nearest to the command; where that jumps, the one nearest to the last goal.
   const JointVector drift = posture_drift(dt);
-  IkResult solution = jaco_kinematics::inverse(pose, state().position + drift * dt);
-  if (solution.status == IkStatus::kSolved && jumps(solution.q)) {
-    solution = jaco_kinematics::inverse(pose, reference);
+  IkResult solution = arm_->inverse(pose, state().position + drift * dt);
+  if (solution.solved && jumps(solution.q)) {
+    solution = arm_->inverse(pose, reference);
   }
-  const bool solved = solution.status == IkStatus::kSolved;
+  const bool solved = solution.solved;
   const JointVector q =
-      solved ? solution.q : nearest_pose(pose, reference, params_.orientation_weight);
+      solved ? solution.q : nearest_pose(*arm_, pose, reference, params_.orientation_weight);
 
   int joint = 0;
   const double jump = (q - reference).cwiseAbs().maxCoeff(&joint);
@@ -225,8 +228,8 @@ SetpointFollower::Goal SetpointFollower::choose_goal(const PoseSetpoint& setpoin
   }
   const double to_go = (q - state().position).cwiseAbs().maxCoeff(&joint);
   changes_branch_ = (refused || changes_branch_) && !far && to_go > kArrived;
-  if (changes_branch_) return {GoalKind::kChangesBranch, {q, JointVector::Zero()}, joint, to_go};
-  if (!solved) return {GoalKind::kNearest, {q, JointVector::Zero()}, -1, 0.0};
+  if (changes_branch_) return {GoalKind::kChangesBranch, at_rest(q), joint, to_go};
+  if (!solved) return {GoalKind::kNearest, at_rest(q), -1, 0.0};
   return {GoalKind::kExact, {q, goal_velocity(setpoint, q, dt) + drift}, -1, 0.0};
 }
 
@@ -235,22 +238,19 @@ JointVector SetpointFollower::posture_drift(double dt) {
   const bool drifts = !transfers_ && !changes_branch_;
   const double change = kPostureAcceleration * dt;
   drift_speed_ += std::clamp((drifts ? kPostureSpeed : 0.0) - drift_speed_, -change, change);
-  return drift_speed_ * jaco_kinematics::posture_motion(state().position);
+  return drift_speed_ * arm_->posture_motion(state().position);
 }
 
 // Zero where the pose of one period ago has no solution near the goal.
 JointVector SetpointFollower::goal_velocity(const PoseSetpoint& setpoint, const JointVector& goal,
                                             double dt) const {
   if (setpoint.linear_velocity.isZero(0.0) && setpoint.angular_velocity.isZero(0.0)) {
-    return JointVector::Zero();
+    return JointVector::Zero(goal.size());
   }
-  IkParams nearest;
-  nearest.limit_weight = 0.0;
-  const IkResult before = jaco_kinematics::inverse(moved_back(setpoint, dt), goal, nearest);
+  const IkResult before = arm_->inverse(moved_back(setpoint, dt), goal, {0, true});
   const JointVector step = goal - before.q;
-  const bool continuous =
-      before.status == IkStatus::kSolved && step.cwiseAbs().maxCoeff() <= params_.max_joint_step;
-  return continuous ? JointVector(step / dt) : JointVector::Zero();
+  const bool continuous = before.solved && step.cwiseAbs().maxCoeff() <= params_.max_joint_step;
+  return continuous ? JointVector(step / dt) : JointVector::Zero(goal.size());
 }
 
 // Damped least squares with the position in units of orientation_weight:
@@ -259,9 +259,8 @@ JointVector SetpointFollower::damped_step(const Eigen::Isometry3d& hand_in_base,
                                           const JointVector& from, double dt) const {
   ErrorVector weight;
   weight << Eigen::Vector3d::Constant(1.0 / params_.orientation_weight), Eigen::Vector3d::Ones();
-  const ErrorVector error =
-      pose_error(jaco_kinematics::forward(from), hand_in_base).cwiseProduct(weight);
-  const jaco_kinematics::Jacobian a = weight.asDiagonal() * jaco_kinematics::jacobian(from);
+  const ErrorVector error = pose_error(arm_->forward(from), hand_in_base).cwiseProduct(weight);
+  const arm_kinematics::Jacobian a = weight.asDiagonal() * arm_->jacobian(from);
   Eigen::Matrix<double, 6, 6> normal = a * a.transpose();
   normal.diagonal().array() += params_.damping * params_.damping;
   const JointVector dq = a.transpose() * normal.ldlt().solve(error);
@@ -272,8 +271,7 @@ JointVector SetpointFollower::damped_step(const Eigen::Isometry3d& hand_in_base,
 }
 
 bool SetpointFollower::is_far(const Eigen::Isometry3d& hand_in_base) const {
-  const Eigen::Isometry3d last =
-      last_pose_ ? *last_pose_ : jaco_kinematics::forward(state().position);
+  const Eigen::Isometry3d last = last_pose_ ? *last_pose_ : arm_->forward(state().position);
   const ErrorVector error = pose_error(last, hand_in_base);
   return error.head<3>().norm() > params_.far_position ||
          error.tail<3>().norm() > params_.far_orientation;

@@ -14,7 +14,12 @@ namespace prf_control {
 
 inline constexpr prf_core::Duration kTick = std::chrono::milliseconds(10);
 
-inline ArmControllerParams controller_params() { return {params(), 0.2, 0.3, "joint_"}; }
+inline ArmControllerParams controller_params() {
+  return {params(),
+          0.2,
+          0.3,
+          {"joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "joint_7"}};
+}
 
 inline JointSample joints_at(std::int64_t tick, const JointVector& q = home()) {
   return {tick * kTick, q, ""};

@@ -4,16 +4,25 @@
 
 #include <gtest/gtest.h>
 
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <memory>
+
 #include "prf_control/setpoint_follower.hpp"
 
 namespace prf_control {
 
 inline constexpr double kDt = 0.01;
 
+inline Arm jaco() {
+  static const Arm arm = std::make_shared<jaco_kinematics::JacoArm>();
+  return arm;
+}
+
 inline FollowerParams params() { return {0.95, 4.0, 0.3, 0.1, 0.5, 0.1, 0.2, 1.0}; }
 
 inline JointVector home() {
-  return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished();
+  return (JointVector(7) << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished();
 }
 
 // Every command: finite, within position, velocity and acceleration limits.

@@ -13,17 +13,17 @@ namespace prf_control {
 namespace {
 
 TEST(ArmController, StartsFromTheMeasuredJointsAtRest) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   const ControlResult result = ask(controller, joints_at(1), beside_home(0.3));
   EXPECT_EQ(result.stamp, kTick);
   EXPECT_TRUE(result.restarted);
   EXPECT_EQ(result.code, ControlCode::kHolding);
   EXPECT_EQ(result.command->position, home());
-  EXPECT_EQ(result.command->velocity, JointVector::Zero());
+  EXPECT_EQ(result.command->velocity, JointVector::Zero(7));
 }
 
 TEST(ArmController, SaysNothingBeforeItKnowsTheJoints) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   EXPECT_TRUE(controller.add_setpoint(kTick, beside_home(0.0)).empty());
   const auto results = controller.add_joints(faulty_joints_at(1));
   ASSERT_EQ(results.size(), 1u);
@@ -34,7 +34,7 @@ TEST(ArmController, SaysNothingBeforeItKnowsTheJoints) {
 }
 
 TEST(ArmController, FollowsAndReportsErrorAndDeviation) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   const ControlResult result = ask(controller, joints_at(1), beside_home(0.05));
   EXPECT_EQ(result.code, ControlCode::kFollowing);
@@ -46,7 +46,7 @@ TEST(ArmController, FollowsAndReportsErrorAndDeviation) {
 }
 
 TEST(ArmController, NamesTheJointThatSlowsItDown) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   ControlResult result;
   JointVector measured = home();
@@ -61,7 +61,7 @@ TEST(ArmController, NamesTheJointThatSlowsItDown) {
 
 // Fault 24: a set-point out of reach -> the nearest pose, UNREACHABLE with the deviation
 TEST(ArmController, ReportsASetpointOutOfReach) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   const ControlResult result = ask(controller, joints_at(1), beside_home(2.0));
   EXPECT_EQ(result.code, ControlCode::kUnreachable);
@@ -72,7 +72,7 @@ TEST(ArmController, ReportsASetpointOutOfReach) {
 // Fault 1, 39: joints or set-point that cannot be used -> holds, says why, and reports the
 // following error all the same
 TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   EXPECT_EQ(ask(controller, joints_at(1), hold_setpoint()).code, ControlCode::kHolding);
 
@@ -91,7 +91,7 @@ TEST(ArmController, HoldsOnHoldOnARefusedSetpointAndOnFaultyJoints) {
 // Fault 26, 27: set-points stop for a second, as when the decision is respawned -> holds within the
 // timeout, resumes without a jump
 TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   std::vector<ControlResult> results;
   JointVector measured = home();
   const auto add = [&](const std::vector<ControlResult>& more) {
@@ -112,7 +112,7 @@ TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
     EXPECT_EQ(stale, i >= 100 && i <= 200) << i;  // tick 200 came before its set-point
     const JointVector step = results[i].command->position - results[i - 1].command->position;
     EXPECT_LE(step.cwiseAbs().maxCoeff(), 0.0085);
-    const bool at_rest = step == JointVector::Zero();
+    const bool at_rest = step == JointVector::Zero(7);
     EXPECT_TRUE(at_rest || i < 130 || i >= 200) << i;
   }
   EXPECT_LE(results.back().deviation, 1e-6);
@@ -121,7 +121,7 @@ TEST(ArmController, HoldsWhenSetpointsStopAndResumesWithoutAJump) {
 // Fault 39: the arm is moved by force -> the command begins anew where the arm is, and the joint is
 // named
 TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   JointVector moved = home();
   moved[3] += 0.25;
@@ -138,10 +138,10 @@ TEST(ArmController, StartsAnewWhereTheJointsWereMovedByForce) {
 // Fault 37: a driver begins another count of a continuous joint's turns -> the commands follow, the
 // joint does not turn
 TEST(ArmController, FollowsAContinuousJointIntoAnotherTurn) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   const MotionState before = *ask(controller, joints_at(1), beside_home(0.05)).command;
-  JointVector turns = JointVector::Zero();
+  JointVector turns = JointVector::Zero(7);
   turns[0] = 2.0 * M_PI;
   turns[6] = -6.0 * M_PI;
   const ControlResult result =
@@ -156,7 +156,7 @@ TEST(ArmController, FollowsAContinuousJointIntoAnotherTurn) {
 // Fault 11, 13: the clock goes back or leaps, confirmed by three ticks -> the command begins anew
 // at the joints
 TEST(ArmController, StartsAnewAfterALeapAndWhenTimeGoesBack) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(100), hold_setpoint());
   EXPECT_FALSE(ask(controller, joints_at(101), beside_home(0.02)).restarted);
   for (const int tick : {498, 499}) controller.add_joints(joints_at(tick));
@@ -174,7 +174,7 @@ std::vector<ControlResult> random_run(unsigned seed) {
   std::mt19937 data(7);
   std::mt19937 order(seed);
   std::uniform_real_distribution<double> offset(-0.4, 0.4);
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   std::vector<ControlResult> results;
   std::vector<std::pair<int, Setpoint>> setpoints;
   std::vector<JointSample> samples;
@@ -223,7 +223,7 @@ TEST(ArmController, GivesTheSameBitsWhateverTheInterleaving) {
 // Joints that follow v + gain (q_command - q) through a first-order lag, as a servo drive does.
 struct Servo {
   JointVector position;
-  JointVector velocity = JointVector::Zero();
+  JointVector velocity = JointVector::Zero(7);
 
   void run(const MotionState& command) {
     constexpr double kGain = 20.0;  // 1/s
@@ -240,7 +240,7 @@ struct Servo {
 
 // The error of the hand, set-point to plant at the same tick, over four periods of sway.
 double sway_error(double amplitude, double frequency, bool feed_forward) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   Servo servo{home()};
   double worst = 0.0;
   const int ticks = static_cast<int>(5.0 * 2.0 * M_PI / frequency / kDt);
@@ -267,7 +267,7 @@ TEST(ArmController, FollowsTheSwayOfThePlatformThroughAServo) {
 }
 
 TEST(ArmController, GoesSlowerFromTheTickThatIsAnnounced) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   controller.scale_speed(100 * kTick, 0.2);
   double before = 0, after = 0;
   JointVector measured = home();

@@ -17,7 +17,7 @@ BOUNDS = {'velocity_scale': (0.01, 1.0), 'acceleration': (0.1, 20.0), 'max_joint
           'far_position': (0.001, 1.0), 'far_orientation': (0.001, math.pi), 'damping': (0.001, 1.0),
           'orientation_weight': (0.01, 10.0), 'branch_patience': (0.01, 60.0),
           'tick_period': (0.001, 0.1), 'max_tracking_error': (0.01, 1.0), 'max_wait': (0.02, 5.0)}
-NAMES = ('joint_prefix', 'planning_frame', 'hand_frame')
+NAMES = ('robot',)
 # Parameter, bad value, how the message writes the value, and the bound.
 CATALOGUE = (
     [(name, value, '%g' % value, 'within [%g, %g]' % BOUNDS[name])
@@ -25,7 +25,8 @@ CATALOGUE = (
     [(name, value, '%g' % value, 'within [')
      for name, (least, most) in BOUNDS.items() for value in (0.9 * least, 1.1 * most)] +
     [(name, 'much', 'much', 'a number') for name in BOUNDS] +
-    [(name, '', "''", 'must be not empty') for name in NAMES] +
+    [('robot', 'my_arm', '"my_arm"', 'must be gen3_v60, jaco_v60'),
+     ('robot', '/no/such/folder', '/no/such/folder/robot.yaml', '')] +
     [(name, 7, '7', 'a string') for name in NAMES] +
     [('accelaration', 4.0, '', '')])
 
@@ -70,13 +71,13 @@ class ArmControllerParams(unittest.TestCase):
                             for name in self.good])
 
     # Fault 45: no robot_description, or of another arm -> exit code 2 and what is missing or differs
-    def test_an_arm_that_is_not_the_compiled_one_is_refused(self):
+    def test_an_arm_that_is_not_the_robots_is_refused(self):
         self.check_refused([(self.good, ('robot_description missing after 5 s', 'URDF of the robot'))])
         with open(self.urdf) as file:
             rospy.set_param('/refused/robot_description', file.read())
         self.check_refused([
-            (dict(self.good, joint_prefix='panda_joint'), ('not [panda_joint1,', 'j2s7s300_joint_1')),
-            (dict(self.good, hand_frame='panda_hand'), ('no link panda_hand',))], keep=True)
+            (dict(self.good, robot='panda_deck'), ('robot_description does not fit', 'no link', 'panda_link0'))],
+            keep=True)
 
     def test_the_configuration_of_the_package_is_accepted(self):
         with open(self.urdf) as file:

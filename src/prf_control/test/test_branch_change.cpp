@@ -21,7 +21,7 @@ using jaco_kinematics::jaco_joint_limits;
 TEST(BranchChange, IsRefusedAtFirstAndTheGoalCreepsInstead) {
   FollowerParams strict = params();
   strict.max_joint_step = 0.02;
-  SetpointFollower follower(strict);
+  SetpointFollower follower(jaco(), strict);
   follower.start(home());
   PoseSetpoint setpoint;
   setpoint.hand_in_base = forward(home());
@@ -42,10 +42,10 @@ std::vector<std::pair<JointVector, Eigen::Isometry3d>> poses_of_other_branches()
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
   std::vector<std::pair<JointVector, Eigen::Isometry3d>> found;
   for (int trial = 0; trial < 4000 && found.size() < 4; ++trial) {
-    JointVector q = JointVector::NullaryExpr([&] { return angle(random); });
+    JointVector q = JointVector::NullaryExpr(7, [&] { return angle(random); });
     for (int i : {1, 3, 5}) q[i] = M_PI + 0.4 * q[i];
     q[5] = joints.upper[5];
-    const JointVector beyond = q + 0.08 * JointVector::Unit(5);
+    const JointVector beyond = q + 0.08 * JointVector::Unit(7, 5);
     const auto solution = jaco_kinematics::inverse(forward(beyond), q);
     const bool solved = solution.status == jaco_kinematics::IkStatus::kSolved;
     if (solved && (solution.q - q).cwiseAbs().maxCoeff() > 1.0) {
@@ -64,7 +64,7 @@ TEST(BranchChange, IsMadeSlowlyWhenItStaysRefused) {
   const auto cases = poses_of_other_branches();
   ASSERT_EQ(cases.size(), 4u);
   for (const auto& [start, pose] : cases) {
-    SetpointFollower follower(params());
+    SetpointFollower follower(jaco(), params());
     follower.start(start);
     MotionState before = follower.state();
     FollowerStep step;

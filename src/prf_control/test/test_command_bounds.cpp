@@ -18,7 +18,7 @@ constexpr double kRounding = 1e-9;
 
 JointVector random_joints(std::mt19937& random, double low, double high) {
   std::uniform_real_distribution<double> uniform(low, high);
-  return JointVector::NullaryExpr([&] { return uniform(random); });
+  return JointVector::NullaryExpr(7, [&] { return uniform(random); });
 }
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
@@ -55,7 +55,7 @@ void expect_bounded(const std::optional<MotionState>& before, const ControlResul
 
 // An arm that follows its commands in its own way, is thrown about, and counts turns anew (4). Its
 // continuous joints turn as far as the command says, be it many turns.
-struct Arm {
+struct WilfulArm {
   JointVector q;
   std::mt19937& random;
 
@@ -90,8 +90,8 @@ Setpoint random_setpoint(std::mt19937& random, int mood) {
 TEST(CommandBounds, HoldWhateverComes) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> moods(0, 400);
-  auto controller = std::make_unique<ArmController>(controller_params());
-  Arm arm{home(), random};
+  auto controller = std::make_unique<ArmController>(jaco(), controller_params());
+  WilfulArm arm{home(), random};
   Setpoint setpoint = hold_setpoint();
   std::optional<MotionState> before;
   int restarts = 0;
@@ -104,7 +104,7 @@ TEST(CommandBounds, HoldWhateverComes) {
     stamp += pause;
     since += pause;
     if (mood == 11) {  // killed and respawned
-      controller = std::make_unique<ArmController>(controller_params());
+      controller = std::make_unique<ArmController>(jaco(), controller_params());
       before.reset();
     }
     if (mood >= 5 && mood <= 8) setpoint = random_setpoint(random, mood);
@@ -133,7 +133,7 @@ TEST(CommandBounds, HoldWhateverComes) {
 // Fault 37: joint 4 reported as -1.0 with a set-point that means hold -> the command stays
 // there, in the turn of the limits
 TEST(CommandBounds, HoldAnArmThatReportsAnotherTurn) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   JointVector q = home();
   q[3] = -1.0;
   for (int tick = 0; tick < 100; ++tick) {
@@ -152,7 +152,7 @@ TEST(CommandBounds, HoldAnArmThatReportsAnotherTurn) {
 // slowly, and says so
 TEST(CommandBounds, BringAnArmOutsideItsLimitsBackSlowly) {
   const double lower = jaco_joint_limits().lower[1];
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   JointVector q = home();
   q[1] = 0.70;
   for (int tick = 0; tick < 50; ++tick) {
@@ -181,7 +181,7 @@ TEST(CommandBounds, BringAnArmOutsideItsLimitsBackSlowly) {
 // Fault 37: joint 2 half a radian outside its limits -> no arm can be there: it is not moved,
 // FAILING
 TEST(CommandBounds, RefuseToMoveAnArmFarOutsideItsLimits) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   JointVector q = home();
   q[1] = jaco_joint_limits().upper[1] + 0.5;
   for (int tick = 0; tick < 50; ++tick) {

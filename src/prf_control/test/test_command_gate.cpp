@@ -16,17 +16,17 @@ constexpr double kMaxLag = 0.2;
 
 MotionLimits limits() {
   const auto& joints = jaco_kinematics::jaco_joint_limits();
-  return {joints.lower, joints.upper, 0.95 * joints.velocity, JointVector::Constant(4.0),
-          JointVector::Constant(6.0)};
+  return {joints.lower, joints.upper, 0.95 * joints.velocity, JointVector::Constant(7, 4.0),
+          JointVector::Constant(7, 6.0)};
 }
 
 // A step that keeps every bound, from a moving arm.
 GateInput good_input() {
   GateInput input;
-  input.before = {home(), JointVector::Constant(0.3)};
-  input.wanted.velocity = JointVector::Constant(0.33);
+  input.before = {home(), JointVector::Constant(7, 0.3)};
+  input.wanted.velocity = JointVector::Constant(7, 0.33);
   input.wanted.position = home() + kDt * input.wanted.velocity;
-  input.measured = home() - JointVector::Constant(0.05);
+  input.measured = home() - JointVector::Constant(7, 0.05);
   input.dt = kDt;
   return input;
 }
@@ -72,7 +72,7 @@ TEST(CommandGate, RefusesEachBreachAndBrakes) {
 
 TEST(CommandGate, RefusesToLeaveTheLimits) {
   GateInput input = good_input();
-  input.before = {home(), JointVector::Zero()};
+  input.before = {home(), JointVector::Zero(7)};
   input.before.position[1] = limits().lower[1] + 1e-4;
   input.measured = input.before.position;
   input.wanted = input.before;
@@ -95,7 +95,7 @@ TEST(CommandGate, BeginsAnewWhereTheCommandIsTooFarFromTheArm) {
   EXPECT_NE(output.refusal.find("distance from the measured joint"), std::string::npos);
   EXPECT_TRUE(output.anew);
   EXPECT_EQ(output.command.position, *input.measured);
-  EXPECT_EQ(output.command.velocity, JointVector::Zero());
+  EXPECT_EQ(output.command.velocity, JointVector::Zero(7));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "follower_limits.hpp"
+#include "controller_test.hpp"
 #include "prf_control/arm_controller.hpp"
 #include "prf_control/setpoint_follower.hpp"
 
@@ -42,7 +42,7 @@ PoseSetpoint moved(const PoseSetpoint& from, double dt) {
 // Fault 25, 43: any set-point, a kilometre away or at 900 rad/s -> every command within all limits
 TEST(SetpointFollower, KeepsEveryLimitWhateverIsAsked) {
   std::mt19937 random(11);
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   std::uniform_int_distribution<int> kind(0, 9);
   std::uniform_int_distribution<int> duration(1, 120);
@@ -90,7 +90,7 @@ TEST(SetpointFollower, PassesSingularPosturesWithoutAJump) {
     const auto first = jaco_kinematics::inverse(setpoint.hand_in_base, home());
     if (first.status != jaco_kinematics::IkStatus::kSolved) continue;
     ++lines;
-    SetpointFollower follower(params());
+    SetpointFollower follower(jaco(), params());
     follower.start(first.q);
     int in_a_row = 0;
     for (int i = 0; i < kTicks; ++i) {
@@ -117,7 +117,7 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
     FollowerParams bad = params();
     bad.*member = value;
     try {
-      SetpointFollower follower(bad);
+      SetpointFollower follower(jaco(), bad);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -148,13 +148,13 @@ TEST(FollowerParams, RefuseImpossibleValuesByName) {
 TEST(ArmControllerParams, RefuseImpossibleValuesByName) {
   const auto refusal = [](const ArmControllerParams& bad) -> std::string {
     try {
-      ArmController controller(bad);
+      ArmController controller(jaco(), bad);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
     return "";
   };
-  const ArmControllerParams good{params(), 0.2, 0.3, "joint_"};
+  const ArmControllerParams good = controller_params();
   EXPECT_EQ(refusal(good), "");
   ArmControllerParams bad = good;
   bad.max_tracking_error = std::nan("");

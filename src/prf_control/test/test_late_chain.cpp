@@ -19,7 +19,7 @@ void append(Results& results, const Results& more) {
 
 // Set-points that arrive so many ticks after their own, while the arm follows at once.
 Results run_with_late_setpoints(int late, int ticks) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   Results results;
   JointVector measured = home();
   for (int i = 0; i < ticks + late; ++i) {
@@ -58,7 +58,7 @@ TEST(LateChain, WaitsForSetpointsWithinMaxWait) {
 // Fault 50: set-points later than max_wait -> the arm brakes and holds, STALE; late ones are
 // dropped and counted
 TEST(LateChain, HoldsWhileSetpointsAreLaterThanMaxWait) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   Results results;
   for (int i = 0; i < 200; ++i) {
     append(results, controller.add_joints(joints_at(i)));
@@ -77,9 +77,9 @@ TEST(LateChain, HoldsWhileSetpointsAreLaterThanMaxWait) {
 // apart -> anew from the joints
 TEST(LateChain, TakesLateTicksAsOneLongStep) {
   for (const int gap : {6, 29}) {
-    ArmController controller(controller_params());
+    ArmController controller(jaco(), controller_params());
     (void)ask(controller, joints_at(0), hold_setpoint());
-    MotionState last{home(), JointVector::Zero()};
+    MotionState last{home(), JointVector::Zero(7)};
     for (int i = 1; i < 20; ++i) {
       const auto result = ask(controller, joints_at(i * gap, last.position), beside_home(0.3));
       ASSERT_FALSE(result.restarted);
@@ -87,7 +87,7 @@ TEST(LateChain, TakesLateTicksAsOneLongStep) {
       last = *result.command;
     }
   }
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   (void)ask(controller, joints_at(1), beside_home(0.3));
   JointVector moved = home();
@@ -101,7 +101,7 @@ TEST(LateChain, TakesLateTicksAsOneLongStep) {
 // Fault 39, 50: ticks of an arm that stood still come in a burst -> no command beyond the
 // bound from where it stands
 TEST(LateChain, DoesNotRunAwayFromAnArmThatDoesNotMove) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   (void)ask(controller, joints_at(0), hold_setpoint());
   for (int i = 1; i < 500; ++i) {
     const ControlResult result = ask(controller, joints_at(i), beside_home(-0.4));
@@ -119,13 +119,13 @@ TEST(OddMessages, CostNothingButThemselves) {
   Results expected;
   std::uint64_t expected_restarts = 0;
   for (const bool odd : {false, true}) {
-    ArmController controller(controller_params());
+    ArmController controller(jaco(), controller_params());
     Results results;
     for (int i = 1000; i < 1200; ++i) {
       append(results, controller.add_joints(joints_at(i)));
       if (odd && i % 20 == 0) {
         for (const int away : {0, -1, -100, -500, 100000}) {
-          append(results, controller.add_joints(joints_at(i + away, JointVector::Ones())));
+          append(results, controller.add_joints(joints_at(i + away, JointVector::Ones(7))));
           if (away != 0)
             append(results, controller.add_setpoint((i + away) * kTick, hold_setpoint()));
         }
@@ -157,16 +157,16 @@ TEST(OddMessages, CostNothingButThemselves) {
 // rest, within all limits
 TEST(Respawn, GoesOnFromTheMeasuredJointsWithoutAJump) {
   JointVector measured = home();
-  MotionState last;
+  MotionState last = at_rest(JointVector::Zero(7));
   for (int life = 0; life < 5; ++life) {
-    ArmController controller(controller_params());
+    ArmController controller(jaco(), controller_params());
     for (int i = 0; i < 37; ++i) {
       const auto result =
           ask(controller, joints_at(100 * life + i, measured), beside_home(life % 2 ? -0.4 : 0.4));
       ASSERT_EQ(result.restarted, i == 0);
       if (i == 0) {
         EXPECT_EQ(result.command->position, measured);
-        EXPECT_EQ(result.command->velocity, JointVector::Zero());
+        EXPECT_EQ(result.command->velocity, JointVector::Zero(7));
       } else {
         ASSERT_NO_FATAL_FAILURE(expect_within_limits(last, *result.command, kDt));
       }
@@ -180,7 +180,7 @@ TEST(Respawn, GoesOnFromTheMeasuredJointsWithoutAJump) {
 // Fault 29, 52: tuned in full motion -> refused whole, or applied, and the arm stops as soon as it
 // would have before
 TEST(LiveTuning, LeavesAMotionAsStoppableAsItWas) {
-  ArmController controller(controller_params());
+  ArmController controller(jaco(), controller_params());
   ControlResult result = ask(controller, joints_at(0), hold_setpoint());
   int tick = 1;
   for (; tick < 60; ++tick) {

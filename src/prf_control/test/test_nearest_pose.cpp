@@ -4,22 +4,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <random>
 #include <stdexcept>
+
+#include "follower_limits.hpp"
 
 namespace prf_control {
 namespace {
 
+using arm_kinematics::JointVector;
 using jaco_kinematics::forward;
 using jaco_kinematics::jaco_joint_limits;
-using jaco_kinematics::JointVector;
 
 constexpr double kWeight = 0.2;
 
 JointVector random_posture(std::mt19937& random) {
   std::uniform_real_distribution<double> turn(-M_PI, M_PI);
   std::uniform_real_distribution<double> bend(-1.5, 1.5);
-  JointVector q;
+  JointVector q(7);
   for (int i = 0; i < 7; ++i) q[i] = i % 2 == 0 ? turn(random) : M_PI + bend(random);
   return q;
 }
@@ -53,8 +56,8 @@ TEST(NearestPose, FindsAPoseThatCanBeReached) {
   std::normal_distribution<double> small(0.0, 0.1);
   for (int i = 0; i < 100; ++i) {
     const JointVector q = random_posture(random);
-    const JointVector start = q + JointVector::NullaryExpr([&] { return small(random); });
-    const JointVector found = nearest_pose(forward(q), start, kWeight);
+    const JointVector start = q + JointVector::NullaryExpr(7, [&] { return small(random); });
+    const JointVector found = nearest_pose(*jaco(), forward(q), start, kWeight);
     expect_within_limits(found);
     EXPECT_LE(cost(found, forward(q)), 1e-5);
   }
@@ -63,13 +66,13 @@ TEST(NearestPose, FindsAPoseThatCanBeReached) {
 // A hand pointing away from the shoulder, farther than the stretched arm: the answer stretches.
 TEST(NearestPose, StretchesTowardAPoseStraightOutOfReach) {
   const Eigen::Vector3d shoulder(0.0, 0.0, 0.2755);
-  JointVector start;
+  JointVector start(7);
   start << 0.0, 3.9, 0.0, 2.4, 0.0, 3.4, 0.0;
   for (const double distance : {1.0, 1.1, 1.5, 3.0}) {
     Eigen::Isometry3d pose = forward(start);
     pose.linear() = Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5).toRotationMatrix();  // z along x
     pose.translation() = shoulder + Eigen::Vector3d(distance, 0.0, 0.0);
-    const JointVector found = nearest_pose(pose, start, kWeight);
+    const JointVector found = nearest_pose(*jaco(), pose, start, kWeight);
     expect_within_limits(found);
     const auto error = pose_error(forward(found), pose);
     EXPECT_NEAR(error.head<3>().norm(), distance - 0.985, 2e-3) << distance;
@@ -84,7 +87,7 @@ TEST(NearestPose, IsStationaryUnlessAJointLimitHoldsIt) {
   for (int i = 0; i < 100; ++i) {
     Eigen::Isometry3d pose = forward(random_posture(random));
     pose.translation() = Eigen::Vector3d(place(random), place(random), place(random));
-    const JointVector found = nearest_pose(pose, random_posture(random), kWeight);
+    const JointVector found = nearest_pose(*jaco(), pose, random_posture(random), kWeight);
     expect_within_limits(found);
     Eigen::Matrix<double, 6, 1> error = pose_error(forward(found), pose);
     error.tail<3>() *= kWeight * kWeight;
@@ -107,9 +110,9 @@ TEST(NearestPose, IsNeverWorseThanItsStartAndStaysWhenCalledAgain) {
     Eigen::Isometry3d pose = forward(random_posture(random));
     pose.translation() *= 2.0;
     const JointVector start = random_posture(random);
-    const JointVector found = nearest_pose(pose, start, kWeight);
+    const JointVector found = nearest_pose(*jaco(), pose, start, kWeight);
     EXPECT_LE(cost(found, pose), cost(start, pose));
-    const JointVector again = nearest_pose(pose, found, kWeight);
+    const JointVector again = nearest_pose(*jaco(), pose, found, kWeight);
     EXPECT_LE((again - found).cwiseAbs().maxCoeff(), 1e-2);
   }
 }
@@ -123,20 +126,21 @@ TEST(NearestPose, StaysWithinHalfATurnHoweverFarThePoseIs) {
     const JointVector start = random_posture(random);
     Eigen::Isometry3d pose = forward(start);
     pose.translation() = 900.0 * Eigen::Vector3d(place(random), place(random), place(random));
-    const JointVector q = nearest_pose(pose, start, kWeight);
+    const JointVector q = nearest_pose(*jaco(), pose, start, kWeight);
     for (const int i : {0, 2, 4, 6}) ASSERT_LE(std::abs(q[i] - start[i]), M_PI + 1e-9) << trial;
   }
 }
 
 TEST(NearestPose, RefusesInputThatIsNotFinite) {
-  const JointVector start = JointVector::Constant(M_PI);
+  const JointVector start = JointVector::Constant(7, M_PI);
   Eigen::Isometry3d bad = Eigen::Isometry3d::Identity();
   bad.translation().x() = std::nan("");
-  EXPECT_THROW(nearest_pose(bad, start, kWeight), std::invalid_argument);
-  EXPECT_THROW(
-      nearest_pose(Eigen::Isometry3d::Identity(), JointVector::Constant(std::nan("")), kWeight),
-      std::invalid_argument);
-  EXPECT_THROW(nearest_pose(Eigen::Isometry3d::Identity(), start, 0.0), std::invalid_argument);
+  EXPECT_THROW(nearest_pose(*jaco(), bad, start, kWeight), std::invalid_argument);
+  EXPECT_THROW(nearest_pose(*jaco(), Eigen::Isometry3d::Identity(),
+                            JointVector::Constant(7, std::nan("")), kWeight),
+               std::invalid_argument);
+  EXPECT_THROW(nearest_pose(*jaco(), Eigen::Isometry3d::Identity(), start, 0.0),
+               std::invalid_argument);
 }
 
 }  // namespace

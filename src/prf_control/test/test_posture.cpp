@@ -15,7 +15,7 @@ using jaco_kinematics::forward;
 
 // The arm in front of the box, with the joints of a heavy stepping trial.
 JointVector in_front() {
-  return (JointVector() << 0.75, 1.80, 0.50, 1.35, -0.75, 1.60, -0.70).finished();
+  return (JointVector(7) << 0.75, 1.80, 0.50, 1.35, -0.75, 1.60, -0.70).finished();
 }
 
 // The target's sway as the arm's base sees it on the heavy platform, 0.15 m/s and 0.1 rad/s rms.
@@ -63,7 +63,7 @@ Deviation follow(SetpointFollower* follower, double begin, double seconds) {
 
 // Two minutes: "64 to 77 mm rms behind after most of a minute" it was.
 TEST(Posture, StaysWhileTheHandFollowsThePlatformForLong) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(in_front());
   (void)follow(&follower, 0.0, 10.0);
   const Deviation first = follow(&follower, 10.0, 20.0);
@@ -83,7 +83,7 @@ TEST(Posture, ComesBackWhileTheHandFollows) {
       if (solution.within_limits) begin = solution.q;
     }
     ASSERT_NEAR(jaco_kinematics::arm_angle(begin), high, 1e-6);
-    SetpointFollower follower(params());
+    SetpointFollower follower(jaco(), params());
     follower.start(begin);
     (void)follow(&follower, 0.0, 30.0);
     const double phi = jaco_kinematics::arm_angle(follower.state().position);
@@ -93,7 +93,7 @@ TEST(Posture, ComesBackWhileTheHandFollows) {
 }
 
 TEST(Posture, DriftsWithoutMovingTheHand) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   PoseSetpoint setpoint;
   setpoint.hand_in_base = forward(home());

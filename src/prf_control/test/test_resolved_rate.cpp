@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <random>
 
 namespace prf_control {
@@ -10,15 +11,15 @@ namespace {
 
 constexpr double kWeight = 0.2;  // m/rad
 
-JointVector home() { return (JointVector() << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
+JointVector home() { return (JointVector(7) << 0.3, 3.9, 0.2, 1.9, 0.4, 2.4, -0.3).finished(); }
 
 VelocityRange range_of(double bound) {
-  return {JointVector::Constant(-bound), JointVector::Constant(bound)};
+  return {JointVector::Constant(7, -bound), JointVector::Constant(7, bound)};
 }
 
 JointVector random_joints(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
-  return JointVector::NullaryExpr([&] { return uniform(random); });
+  return JointVector::NullaryExpr(7, [&] { return uniform(random); });
 }
 
 Twist random_twist(std::mt19937& random) {
@@ -70,7 +71,7 @@ TEST(ResolvedRate, IsTheMinimumWithinTheRange) {
 
 TEST(ResolvedRate, LetsTheOtherJointsMakeUpForOneAtItsLimit) {
   const auto J = jaco_kinematics::jacobian(home());
-  const JointVector wanted = (JointVector() << 1.0, 0.1, 0.2, 0.1, -0.2, 0.1, 0.1).finished();
+  const JointVector wanted = (JointVector(7) << 1.0, 0.1, 0.2, 0.1, -0.2, 0.1, 0.1).finished();
   VelocityRange range = range_of(0.8);
   range.upper[0] = 0.5;
   const Twist twist = J * wanted;

@@ -35,7 +35,7 @@ PoseSetpoint swaying(double time, double size, double frequency) {
 }
 
 TEST(SetpointFollower, CommandsTheSetpointExactlyWhenItMovesSlowly) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   for (int i = 0; i < 1000; ++i) {
     const PoseSetpoint setpoint = swaying(kDt * i, 0.05, 2.4);
@@ -50,7 +50,7 @@ TEST(SetpointFollower, CommandsTheSetpointExactlyWhenItMovesSlowly) {
 }
 
 TEST(SetpointFollower, CommandsTheVelocityOfTheSetpoint) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   for (int i = 0; i < 600; ++i) {
     const PoseSetpoint setpoint = swaying(kDt * i, 0.05, 2.4);
@@ -64,7 +64,7 @@ TEST(SetpointFollower, CommandsTheVelocityOfTheSetpoint) {
 
 // Faster than the joints can: all of them slowed alike would leave the hand 71 mm behind.
 TEST(SetpointFollower, KeepsTheHandOnItsWayWhereAJointIsAtItsLimit) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   double deviation = 0;
   double turn = 0;
@@ -85,9 +85,9 @@ TEST(SetpointFollower, KeepsTheHandOnItsWayWhereAJointIsAtItsLimit) {
 }
 
 TEST(SetpointFollower, GoesToAFarSetpointStraightInJointSpaceAndStops) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
-  JointVector there;
+  JointVector there(7);
   there << -0.6, 3.4, 0.5, 1.6, 1.0, 2.6, 0.5;
   const PoseSetpoint setpoint{forward(there), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   FollowerStep step;
@@ -114,9 +114,9 @@ TEST(SetpointFollower, GoesToAFarSetpointStraightInJointSpaceAndStops) {
 }
 
 TEST(SetpointFollower, PassesTheShoulderSingularityExactly) {
-  JointVector q;
+  JointVector q(7);
   q << 0.4, M_PI - 0.5, 0.0, 2.0, 0.3, 2.5, 0.0;
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(q);
   JointVector last = q;
   for (int i = 0; i < 600; ++i) {
@@ -135,7 +135,7 @@ TEST(SetpointFollower, PassesTheShoulderSingularityExactly) {
 }
 
 TEST(SetpointFollower, GoesToTheNearestPoseOfOneOutOfReach) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   PoseSetpoint setpoint;
   setpoint.hand_in_base = forward(home());
@@ -144,14 +144,15 @@ TEST(SetpointFollower, GoesToTheNearestPoseOfOneOutOfReach) {
   for (int i = 0; i < 1500; ++i) step = follower.follow(setpoint, kDt);
   EXPECT_EQ(step.goal, GoalKind::kNearest);
   EXPECT_LE(step.motion.state.velocity.norm(), 1e-3);
-  const JointVector nearest = nearest_pose(setpoint.hand_in_base, step.motion.state.position, 0.2);
+  const JointVector nearest =
+      nearest_pose(*jaco(), setpoint.hand_in_base, step.motion.state.position, 0.2);
   EXPECT_LE(pose_error(forward(step.motion.state.position), forward(nearest)).norm(), 1e-3);
   EXPECT_GT(step.position_deviation, 0.2);
   EXPECT_LT(step.position_deviation, 0.4);
 }
 
 TEST(SetpointFollower, HoldStopsWithinTheAccelerationLimitAndStays) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   for (int i = 0; i < 100; ++i) (void)follower.follow(swaying(kDt * i, 0.05, 2.4), kDt);
   for (int i = 0; i < 30; ++i) {
@@ -159,12 +160,12 @@ TEST(SetpointFollower, HoldStopsWithinTheAccelerationLimitAndStays) {
     expect_within_limits(before, follower.hold(kDt).motion.state, kDt);
   }
   const MotionState still = follower.state();
-  EXPECT_EQ(still.velocity, JointVector::Zero());
+  EXPECT_EQ(still.velocity, JointVector::Zero(7));
   EXPECT_EQ(follower.hold(kDt).motion.state.position, still.position);
 }
 
 TEST(SetpointFollower, BrakesDownToNewVelocityLimitsWithinTheAccelerationLimit) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   follower.start(home());
   PoseSetpoint far;
   far.hand_in_base = forward(JointVector(home().array() + 0.5));
@@ -186,14 +187,14 @@ TEST(SetpointFollower, BrakesDownToNewVelocityLimitsWithinTheAccelerationLimit) 
 }
 
 TEST(SetpointFollower, StartsWhereTheJointsAre) {
-  SetpointFollower follower(params());
+  SetpointFollower follower(jaco(), params());
   EXPECT_FALSE(follower.started());
   JointVector outside = home();
   outside[1] = jaco_joint_limits().lower[1] - 0.1;
   follower.start(outside);
   EXPECT_EQ(follower.state().position, outside);
   EXPECT_EQ(follower.hold(kDt).motion.state.position, outside);
-  EXPECT_THROW(follower.start(JointVector::Constant(std::nan(""))), std::invalid_argument);
+  EXPECT_THROW(follower.start(JointVector::Constant(7, std::nan(""))), std::invalid_argument);
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ namespace {
 
 constexpr prf_core::Duration kTick = std::chrono::milliseconds(10);
 
-JointSample tick_at(prf_core::Stamp stamp) { return {stamp, JointVector(JointVector::Zero()), ""}; }
+JointSample tick_at(prf_core::Stamp stamp) {
+  return {stamp, JointVector(JointVector::Zero(7)), ""};
+}
 
 Setpoint tagged(double tag) {
   return checked_setpoint({tag, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, Eigen::Vector3d::Zero(),

@@ -2,7 +2,6 @@
 #include "conversions.hpp"
 
 #include <algorithm>
-#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <prf_core/require.hpp>
 #include <prf_ros/conversions.hpp>
 
@@ -20,9 +19,9 @@ geometry_msgs::Transform to_transform(const Pose& pose) {
   return transform;
 }
 
-std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
+std::shared_ptr<const Trajectory> to_core(const Robot& robot,
                                           const prf_msgs::SkillTrajectory& message) {
-  require_frame(message.header.frame_id, robot.planning_frame);
+  require_frame(message.header.frame_id, robot.base_link);
   auto trajectory = std::make_shared<Trajectory>();
   for (const auto& pose : message.poses) trajectory->poses.push_back(prf_ros::to_core(pose));
   for (const auto& time : message.time_from_start) {
@@ -35,17 +34,15 @@ std::shared_ptr<const Trajectory> to_core(const RobotNames& robot,
 
 }  // namespace
 
-std::optional<int> arm_joint(const RobotNames& robot, const std::string& name) {
-  const std::string& prefix = robot.joint_prefix;
-  if (name.size() != prefix.size() + 1 || name.rfind(prefix, 0) != 0) return std::nullopt;
-  const int joint = name.back() - '1';
-  return joint >= 0 && joint <= 6 ? std::optional(joint) : std::nullopt;
+std::optional<int> arm_joint(const Robot& robot, const std::string& name) {
+  const auto found = std::find(robot.joints.begin(), robot.joints.end(), name);
+  if (found == robot.joints.end()) return std::nullopt;
+  return static_cast<int>(found - robot.joints.begin());
 }
 
-std::string missing_joints(const RobotNames& robot, const sensor_msgs::JointState& joints) {
+std::string missing_joints(const Robot& robot, const sensor_msgs::JointState& joints) {
   std::string missing;
-  for (int joint = 1; joint <= 7; ++joint) {
-    const std::string name = robot.joint_prefix + std::to_string(joint);
+  for (const std::string& name : robot.joints) {
     const auto found = std::find(joints.name.begin(), joints.name.end(), name);
     const auto index = static_cast<std::size_t>(std::distance(joints.name.begin(), found));
     if (index < joints.position.size()) continue;
@@ -54,11 +51,11 @@ std::string missing_joints(const RobotNames& robot, const sensor_msgs::JointStat
   return missing;
 }
 
-std::optional<jaco_kinematics::JointVector> measured_joints(const RobotNames& robot,
-                                                            const sensor_msgs::JointState& joints) {
+std::optional<arm_kinematics::JointVector> measured_joints(const Robot& robot,
+                                                           const sensor_msgs::JointState& joints) {
   constexpr double kMostTurns = 100;  // rad; beyond it the angle's sine means nothing
   if (!missing_joints(robot, joints).empty()) return std::nullopt;
-  jaco_kinematics::JointVector q;
+  arm_kinematics::JointVector q(static_cast<Eigen::Index>(robot.joints.size()));
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
     if (const auto joint = arm_joint(robot, joints.name[i])) q[*joint] = joints.position[i];
   }
@@ -78,9 +75,9 @@ ControlReport to_core(const prf_msgs::ControlStatus& message) {
   return report;
 }
 
-std::shared_ptr<const TargetForecast> to_core(const RobotNames& robot,
+std::shared_ptr<const TargetForecast> to_core(const Robot& robot,
                                               const prf_msgs::TargetForecast& message) {
-  require_frame(message.header.frame_id, robot.planning_frame);
+  require_frame(message.header.frame_id, robot.base_link);
   return std::make_shared<TargetForecast>(prf_ros::to_core(message));
 }
 
@@ -89,7 +86,7 @@ bool has_plan(const prf_msgs::SkillTrajectory& message) {
   return message.status != SkillTrajectory::REFUSED && message.status != SkillTrajectory::NO_PLAN;
 }
 
-PlanResult to_plan_result(const RobotNames& robot, const prf_msgs::SkillTrajectory& message) {
+PlanResult to_plan_result(const Robot& robot, const prf_msgs::SkillTrajectory& message) {
   PlanResult result;
   result.stamp = prf_ros::to_core(message.header.stamp);
   result.demonstration_switch = message.demonstration_switch;
@@ -106,10 +103,10 @@ PlanResult to_plan_result(const RobotNames& robot, const prf_msgs::SkillTrajecto
   return result;
 }
 
-prf_msgs::ExecutionProgress to_message(const RobotNames& robot, const Progress& progress) {
+prf_msgs::ExecutionProgress to_message(const Robot& robot, const Progress& progress) {
   prf_msgs::ExecutionProgress message;
   message.header.stamp = prf_ros::to_ros_time(progress.stamp);
-  message.header.frame_id = robot.planning_frame;
+  message.header.frame_id = robot.base_link;
   message.forecast_stamp = prf_ros::to_ros_time(progress.forecast_stamp);
   message.state = static_cast<std::uint8_t>(progress.state);
   message.reason = progress.reason;
@@ -136,12 +133,12 @@ static_assert(static_cast<int>(ExecutionState::kDone) == prf_msgs::ExecutionProg
 static_assert(static_cast<int>(ExecutionState::kStopped) == prf_msgs::ExecutionProgress::STOPPED);
 static_assert(static_cast<int>(ExecutionState::kSearch) == prf_msgs::ExecutionProgress::SEARCH);
 
-trajectory_msgs::MultiDOFJointTrajectory to_message(const RobotNames& robot, Stamp stamp,
+trajectory_msgs::MultiDOFJointTrajectory to_message(const Robot& robot, Stamp stamp,
                                                     const std::optional<MovingPose>& setpoint) {
   trajectory_msgs::MultiDOFJointTrajectory message;
   message.header.stamp = prf_ros::to_ros_time(stamp);
-  message.header.frame_id = robot.planning_frame;
-  message.joint_names = {robot.hand_frame};
+  message.header.frame_id = robot.base_link;
+  message.joint_names = {robot.tip_link};
   if (!setpoint) return message;
   message.points.resize(1);
   message.points[0].transforms.push_back(to_transform(setpoint->pose));

@@ -18,28 +18,26 @@
 
 namespace prf_decision {
 
-// 0 .. 6, from base to hand; none for a finger or a leg.
-[[nodiscard]] std::optional<int> arm_joint(const RobotNames& robot, const std::string& name);
+// Counted from base to hand; none for a finger or a leg.
+[[nodiscard]] std::optional<int> arm_joint(const Robot& robot, const std::string& name);
 
 // The joints of the arm that a message lacks, as "j1, j2"; empty: it has them all.
-[[nodiscard]] std::string missing_joints(const RobotNames& robot,
-                                         const sensor_msgs::JointState& joints);
+[[nodiscard]] std::string missing_joints(const Robot& robot, const sensor_msgs::JointState& joints);
 // The arm's joints, rad; none when one is missing, not finite or absurd.
-[[nodiscard]] std::optional<jaco_kinematics::JointVector> measured_joints(
-    const RobotNames& robot, const sensor_msgs::JointState& joints);
+[[nodiscard]] std::optional<arm_kinematics::JointVector> measured_joints(
+    const Robot& robot, const sensor_msgs::JointState& joints);
 
 [[nodiscard]] ControlReport to_core(const prf_msgs::ControlStatus& message);
 
 [[nodiscard]] std::shared_ptr<const TargetForecast> to_core(
-    const RobotNames& robot, const prf_msgs::TargetForecast& message);
+    const Robot& robot, const prf_msgs::TargetForecast& message);
 [[nodiscard]] bool has_plan(const prf_msgs::SkillTrajectory& message);
 // A plan that must not be executed becomes none, with the reason.
-[[nodiscard]] PlanResult to_plan_result(const RobotNames& robot,
+[[nodiscard]] PlanResult to_plan_result(const Robot& robot,
                                         const prf_msgs::SkillTrajectory& message);
 
-[[nodiscard]] prf_msgs::ExecutionProgress to_message(const RobotNames& robot,
-                                                     const Progress& progress);
+[[nodiscard]] prf_msgs::ExecutionProgress to_message(const Robot& robot, const Progress& progress);
 [[nodiscard]] trajectory_msgs::MultiDOFJointTrajectory to_message(
-    const RobotNames& robot, Stamp stamp, const std::optional<MovingPose>& setpoint);
+    const Robot& robot, Stamp stamp, const std::optional<MovingPose>& setpoint);
 
 }  // namespace prf_decision

@@ -48,11 +48,13 @@ class DecisionNode {
   using ReconfigurableParams = prf_ros::ReconfigurableParams;
 
   void subscribe() {
-    const auto& [frame, hand, prefix] = params_.robot;
+    const std::string& frame = params_.robot.base_link;
     const double tick_rate = 1 / params_.tick_period;
     const double camera_rate = 1 / to_seconds(params_.gate.camera_period);
     inputs_.subscribe<sensor_msgs::JointState>(
-        {"joint_states", "sensor_msgs/JointState with " + prefix + "1 ... 7", tick_rate}, kQueue,
+        {"joint_states", "sensor_msgs/JointState with " + first_joint() + " and the others",
+         tick_rate},
+        kQueue,
         [this](const sensor_msgs::JointStateConstPtr& message) { on_joint_states(*message); });
     inputs_.subscribe<prf_msgs::TargetForecast>(
         {"target/forecast", "prf_msgs/TargetForecast in " + frame, camera_rate}, kQueue,
@@ -85,8 +87,9 @@ class DecisionNode {
     action_.see_joints(message);
     const Stamp stamp = prf_ros::to_core(message.header.stamp);
     const auto joints = measured_joints(params_.robot, message);
-    const auto hand = joints ? std::optional(prf_core::pose_from(jaco_kinematics::forward(*joints)))
-                             : std::nullopt;
+    const auto hand =
+        joints ? std::optional(prf_core::pose_from(params_.robot.kinematics->forward(*joints)))
+               : std::nullopt;
     account("joint_states", stamp, gate_.push_tick(stamp, hand, joints));
     process();
   }
@@ -187,9 +190,11 @@ class DecisionNode {
     if (silence < kTickSilence) return;
     std::ostringstream text;
     text << "no control tick for " << std::lround(silence) << " s: joint_states with "
-         << params_.robot.joint_prefix << "1 ... 7 is missing";
+         << first_joint() << " and the others is missing";
     action_.tell_missing(text.str());
   }
+
+  [[nodiscard]] const std::string& first_joint() const { return params_.robot.joints.front(); }
 
   void count(const std::string& what) { ++counters_[what]; }
 

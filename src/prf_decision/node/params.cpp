@@ -29,16 +29,16 @@ FollowingParams load_following(prf_ros::PrivateParameters& values) {
   return following;
 }
 
-GuardParams load_guards(prf_ros::PrivateParameters& values) {
+GuardParams load_guards(prf_ros::PrivateParameters& values, const Robot& robot) {
   GuardParams guards;
   const auto coast = values.numbers("coast_limits", 3);
   guards.max_gap = checked_seconds("max_wait", values.number("max_wait"));
   guards.pause_after = checked_seconds("coast_limits[0]", coast[0]);
   guards.reverse_after = checked_seconds("coast_limits[1]", coast[1]);
   guards.stop_after = checked_seconds("coast_limits[2]", coast[2]);
-  const auto shoulder = values.numbers("shoulder", 3);
-  guards.shoulder = {shoulder[0], shoulder[1], shoulder[2]};
-  guards.max_reach = values.number("max_reach");
+  guards.shoulder = robot.shoulder;
+  guards.max_reach = robot.reach;
+  guards.arm = robot.kinematics;
   guards.workspace_radius = values.number("workspace_radius");
   guards.max_target_speed = values.number("max_target_speed");
   guards.clearance = values.number("clearance");
@@ -58,7 +58,7 @@ ReferenceParams load_reference(prf_ros::PrivateParameters& values) {
   return params;
 }
 
-DecisionParams load_decision(prf_ros::PrivateParameters& values) {
+DecisionParams load_decision(prf_ros::PrivateParameters& values, const Robot& robot) {
   const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
   DecisionParams params;
   params.reference = load_reference(values);
@@ -66,24 +66,17 @@ DecisionParams load_decision(prf_ros::PrivateParameters& values) {
   params.hold_time = seconds("hold_time");
   params.dwell_time = seconds("dwell_time");
   params.time_limit = seconds("time_limit");
-  params.guards = load_guards(values);
+  params.guards = load_guards(values, robot);
   const auto arm = values.numbers("arm_limits", 2);
-  params.arm = {arm[0], arm[1]};
+  params.arm = {arm[0], arm[1], robot.kinematics};
   const auto search = values.numbers("search", 3);
-  params.search = {checked_seconds("search[0]", search[0]), search[1], search[2]};
+  params.search = {checked_seconds("search[0]", search[0]), search[1], search[2], robot.kinematics};
   return params;
 }
 
 }  // namespace
 
-void RobotNames::validate() const {
-  prf_core::require(!planning_frame.empty(), "planning_frame", planning_frame, "a frame's name");
-  prf_core::require(!hand_frame.empty(), "hand_frame", hand_frame, "a frame's name");
-  prf_core::require(!joint_prefix.empty(), "joint_prefix", joint_prefix, "a prefix of names");
-}
-
 void DecisionNodeParams::validate() const {
-  robot.validate();
   prf_core::require_between("tick_period", tick_period, 0.001, 0.1, "s");
   gate.validate();
   decision.validate();
@@ -92,14 +85,13 @@ void DecisionNodeParams::validate() const {
 DecisionNodeParams load_params(prf_ros::PrivateParameters values) {
   const auto seconds = [&](const char* key) { return checked_seconds(key, values.number(key)); };
   DecisionNodeParams params;
-  params.robot = {values.text("planning_frame"), values.text("hand_frame"),
-                  values.text("joint_prefix")};
+  params.robot = prf_robots::load_robot(prf_robots::robot_folder(values.text("robot")));
   params.tick_period = values.number("tick_period");
   params.gate.pipeline_delay = seconds("pipeline_delay");
   params.gate.camera_period = seconds("camera_period");
   params.gate.control_delay = seconds("control_delay");
   params.gate.max_wait = seconds("max_wait");
-  params.decision = load_decision(values);
+  params.decision = load_decision(values, params.robot);
   const std::string hmm_file = values.text("hmm_file");
   values.refuse_unknown();
   params.decision.hmm = load_hmm(hmm_file);

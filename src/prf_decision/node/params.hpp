@@ -2,6 +2,7 @@
 // The decision node's parameters; config/decision.yaml states units and meaning.
 #pragma once
 
+#include <prf_robots/robot.hpp>
 #include <prf_ros/private_parameters.hpp>
 #include <prf_ros/reconfigurable.hpp>
 #include <string>
@@ -12,16 +13,10 @@
 
 namespace prf_decision {
 
-struct RobotNames {
-  std::string planning_frame;  // of everything received and published
-  std::string hand_frame;      // that the set-point is for
-  std::string joint_prefix;    // joints from base to hand: this and 1 .. 7
-
-  void validate() const;
-};
+using prf_robots::Robot;
 
 struct DecisionNodeParams {
-  RobotNames robot;
+  prf_robots::Robot robot;
   double tick_period = 0.0;  // s, of joint_states and control/status
   GateParams gate;
   DecisionParams decision;

@@ -33,8 +33,7 @@ SkillGoal to_core(const prf_msgs::ExecuteSkillGoal& goal) {
 
 }  // namespace
 
-SkillAction::SkillAction(const ros::NodeHandle& node, const RobotNames& robot,
-                         SkillExecutive& executive)
+SkillAction::SkillAction(const ros::NodeHandle& node, const Robot& robot, SkillExecutive& executive)
     : robot_(robot),
       executive_(executive),
       server_(

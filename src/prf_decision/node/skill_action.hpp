@@ -21,7 +21,7 @@ namespace prf_decision {
 
 class SkillAction {
  public:
-  SkillAction(const ros::NodeHandle& node, const RobotNames& robot, SkillExecutive& executive);
+  SkillAction(const ros::NodeHandle& node, const Robot& robot, SkillExecutive& executive);
 
   // Once all else of the node is ready.
   void start() { server_.start(); }
@@ -53,7 +53,7 @@ class SkillAction {
   void give_feedback(const Progress& progress);
   void give_up(const Progress& progress);
 
-  RobotNames robot_;
+  Robot robot_;
   SkillExecutive& executive_;
   bool arm_moves_ = false;
   std::optional<Current> goal_;

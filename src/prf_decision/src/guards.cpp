@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prf_decision/guards.hpp"
 
-#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <prf_core/require.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "sentence.hpp"
@@ -38,6 +38,7 @@ void GuardParams::validate() const {
   require_between("max_target_speed", max_target_speed, 0.01, 10, "m/s");
   require_between("clearance", clearance, 1e-3, 1, "m");
   following.validate();
+  if (!arm) throw std::invalid_argument("the guards need an arm");
 }
 
 std::optional<Violation> check_has_goal(const GuardParams&, const GuardInput& input) {
@@ -151,9 +152,7 @@ std::optional<Violation> check_goal(const GuardParams& params, const GuardInput&
   }
   const Eigen::Isometry3d pose =
       Eigen::Translation3d(goal.position) * goal.orientation.normalized();
-  if (jaco_kinematics::any_inverse(pose).status == jaco_kinematics::IkStatus::kSolved) {
-    return std::nullopt;
-  }
+  if (params.arm->reaches(pose)) return std::nullopt;
   return hazard("no joint position within limits gives the goal");
 }
 

@@ -37,7 +37,7 @@ void ArmLimits::validate() const {
   prf_core::require_between("arm_limits[1]", acceleration, 0.1, 20, "rad/s^2");
 }
 
-ShadowArm::ShadowArm(const ArmLimits& limits) : follower_(follower_params(limits)) {}
+ShadowArm::ShadowArm(const ArmLimits& limits) : follower_(limits.arm, follower_params(limits)) {}
 
 void ShadowArm::set_goal(const Pose& goal_in_target) {
   if (goal_in_target_ && same(*goal_in_target_, goal_in_target)) return;
@@ -61,8 +61,8 @@ void ShadowArm::step(Stamp tick, Duration dt, Duration lead, const TargetForecas
                                              goal.angular_velocity};
     if (!follower_.started()) {
       if (!joints) return;
-      const auto begin = jaco_kinematics::inverse(setpoint.hand_in_base, *joints);
-      if (begin.status != jaco_kinematics::IkStatus::kSolved) return;
+      const auto begin = follower_.arm().inverse(setpoint.hand_in_base, *joints);
+      if (!begin.solved) return;
       follower_.start(begin.q);
     }
     follower_.follow(setpoint, to_seconds(dt));
@@ -71,7 +71,7 @@ void ShadowArm::step(Stamp tick, Duration dt, Duration lead, const TargetForecas
   }
   if (!follower_.started()) return;
   hands_.push_back(
-      {tick + lead, jaco_kinematics::forward(follower_.state().position).translation()});
+      {tick + lead, follower_.arm().forward(follower_.state().position).translation()});
   while (hands_.front().stamp + kHandsKept < hands_.back().stamp) hands_.pop_front();
 }
 

@@ -46,7 +46,7 @@ void TickGate::begin_at(Stamp first_tick) {
 }
 
 PushResult TickGate::push_tick(Stamp stamp, const std::optional<Pose>& hand,
-                               const std::optional<jaco_kinematics::JointVector>& joints) {
+                               const std::optional<arm_kinematics::JointVector>& joints) {
   const bool new_run = ticks_.clock().classify(stamp) == StampOrder::kBackwardJump;
   if (new_run) begin_new_run();
   const StampOrder order = ticks_.push(stamp, {hand, joints});

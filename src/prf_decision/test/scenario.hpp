@@ -2,6 +2,8 @@
 // Small worlds for the tests: a straight skill, a target that moves as told, usual parameters.
 #pragma once
 
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <memory>
 
 #include "prf_decision/skill_executive.hpp"
@@ -64,6 +66,11 @@ inline HmmParams skewed_hmm() {
   return hmm;
 }
 
+inline prf_control::Arm jaco() {
+  static const prf_control::Arm arm = std::make_shared<jaco_kinematics::JacoArm>();
+  return arm;
+}
+
 inline GuardParams usual_guards() {
   GuardParams guards;
   guards.max_gap = from_seconds(0.3);
@@ -75,6 +82,7 @@ inline GuardParams usual_guards() {
   guards.workspace_radius = 2.0;
   guards.max_target_speed = 1.5;
   guards.clearance = 0.04;
+  guards.arm = jaco();
   guards.following.path = {0.10, 0.35};
   guards.following.goal = {0.05, 0.20};
   guards.following.limits = {from_seconds(0.1), from_seconds(1.0), from_seconds(5.0)};
@@ -91,8 +99,8 @@ inline DecisionParams usual_params() {
   parameters.reference.catch_up = {0.2, 0.5, 0.1};
   parameters.guards = usual_guards();
   parameters.hmm = usual_hmm();
-  parameters.arm = {0.95, 4.0};
-  parameters.search = {Duration{0}, 0.4, 1.2};
+  parameters.arm = {0.95, 4.0, jaco()};
+  parameters.search = {Duration{0}, 0.4, 1.2, jaco()};
   return parameters;
 }
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "scenario.hpp"
+
 namespace prf_decision {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr Duration kTick = std::chrono::milliseconds(10);
 constexpr Duration kLead = std::chrono::milliseconds(40);
 
 prf_control::JointVector ready_pose() {
-  prf_control::JointVector q;
+  prf_control::JointVector q(7);
   q << 1.600, 1.372, 0.516, 0.967, -1.637, 2.307, -0.298;
   return q;
 }
@@ -36,7 +38,7 @@ TargetForecast swaying(Stamp stamp, double amplitude, double rate) {
 
 // What holdable() says after `seconds` of it.
 std::optional<double> held(double amplitude, double rate, double seconds) {
-  ShadowArm shadow({0.95, 4.0});
+  ShadowArm shadow({0.95, 4.0, jaco()});
   shadow.set_goal(Pose());
   TargetForecast newest = swaying(from_seconds(1), amplitude, rate);
   for (int k = 0; k < 100 * seconds; ++k) {
@@ -59,7 +61,7 @@ TEST(ShadowArm, HoldsASlowTargetAndNotAFastOne) {
 }
 
 TEST(ShadowArm, KnowsNothingWithoutGoalJointsOrImages) {
-  ShadowArm shadow({0.95, 4.0});
+  ShadowArm shadow({0.95, 4.0, jaco()});
   const TargetForecast forecast = swaying(from_seconds(1), 0, 0);
   shadow.step(from_seconds(1), kTick, kLead, &forecast, ready_pose());
   EXPECT_FALSE(shadow.hand());
@@ -72,7 +74,7 @@ TEST(ShadowArm, KnowsNothingWithoutGoalJointsOrImages) {
 }
 
 TEST(ShadowArm, BeginsAnewForAnotherGoal) {
-  ShadowArm shadow({0.95, 4.0});
+  ShadowArm shadow({0.95, 4.0, jaco()});
   shadow.set_goal(Pose());
   const TargetForecast forecast = swaying(from_seconds(1), 0, 0);
   for (int k = 0; k < 10; ++k) {
@@ -86,7 +88,7 @@ TEST(ShadowArm, BeginsAnewForAnotherGoal) {
 }
 
 TEST(ShadowArm, BeginsAnewWhenTheTargetIsSeenElsewhereAfterAGap) {
-  ShadowArm shadow({0.95, 4.0});
+  ShadowArm shadow({0.95, 4.0, jaco()});
   shadow.set_goal(Pose());
   Stamp tick = from_seconds(1);
   TargetForecast newest = swaying(tick, 0, 1);
@@ -109,7 +111,7 @@ TEST(ShadowArm, BeginsAnewWhenTheTargetIsSeenElsewhereAfterAGap) {
 
 // Fault 17: the target is no longer seen -> the shadow stands, and says nothing of it
 TEST(ShadowArm, StandsWithoutAForecast) {
-  ShadowArm shadow({0.95, 4.0});
+  ShadowArm shadow({0.95, 4.0, jaco()});
   shadow.set_goal(Pose());
   TargetForecast forecast = swaying(from_seconds(1), 0.05, 2);
   Stamp tick = from_seconds(1);

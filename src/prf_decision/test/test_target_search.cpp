@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 const Pose kStand = pose_at(0.35, -0.1, 0.5);
 const Pose kGoal = pose_at(-0.4, 0, 0);  // so the camera looks along the hand's x axis
 const Vector3d kCentre(0.8, 0, 0.5);
-const SearchParams kParams{from_seconds(30), 0.4, 1.2};
+const SearchParams kParams{from_seconds(30), 0.4, 1.2, jaco()};
 
 prf_core::TargetPrediction last_seen(const Vector3d& deviations, const Vector3d& velocity) {
   prf_core::TargetPrediction last;
@@ -160,9 +160,10 @@ TEST(TargetSearch, NamesAParameterOutOfItsBounds) {
     return std::string();
   };
   EXPECT_EQ(refused(kParams), "");
-  EXPECT_NE(refused({from_seconds(-1), 0.4, 1.2}).find("search[0]"), std::string::npos);
-  EXPECT_NE(refused({from_seconds(30), 0.0, 1.2}).find("search[1]"), std::string::npos);
-  EXPECT_NE(refused({from_seconds(30), 0.4, std::nan("")}).find("search[2]"), std::string::npos);
+  EXPECT_NE(refused({from_seconds(-1), 0.4, 1.2, jaco()}).find("search[0]"), std::string::npos);
+  EXPECT_NE(refused({from_seconds(30), 0.0, 1.2, jaco()}).find("search[1]"), std::string::npos);
+  EXPECT_NE(refused({from_seconds(30), 0.4, std::nan(""), jaco()}).find("search[2]"),
+            std::string::npos);
 }
 
 }  // namespace

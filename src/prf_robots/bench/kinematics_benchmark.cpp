@@ -110,7 +110,7 @@ Solver solver_of(KDL::ChainIkSolverPos& solver) {
 
 Solver solver_of(const ArmKinematics& arm) {
   return [&arm](const Question& question) -> std::optional<JointVector> {
-    const auto result = arm.inverse(question.pose, question.seed, 1);
+    const auto result = arm.inverse(question.pose, question.seed, {1});
     if (!result.solved) return std::nullopt;
     return result.q;
   };

@@ -22,9 +22,9 @@ using arm_kinematics::Chain;
 using arm_kinematics::ChainKinematics;
 using prf_core::quoted;
 
-constexpr const char* kKeys[] = {"acceleration",  "base_link", "camera_frame",
-                                 "driver_period", "jerk",      "joints",
-                                 "kinematics",    "ready",     "tip_link"};
+constexpr const char* kKeys[] = {"acceleration",  "base",  "base_link", "camera_frame",
+                                 "driver_period", "jerk",  "joints",    "kinematics",
+                                 "reach",         "ready", "shoulder",  "tip_link"};
 constexpr double kMaxJerk = 1e6;     // rad/s^3
 constexpr double kShortest = 0.002;  // s, of the driver's period
 constexpr double kLongest = 0.025;
@@ -81,12 +81,11 @@ class Keys {
     return result;
   }
 
-  // One number for each joint.
   [[nodiscard]] JointVector numbers(const char* key, std::size_t count, double low,
                                     double high) const {
     const YAML::Node node = node_of(key);
     if (!node.IsSequence() || node.size() != count) {
-      refuse(key, shown(node), "a list of " + std::to_string(count) + " numbers, one a joint");
+      refuse(key, shown(node), "a list of " + std::to_string(count) + " numbers");
     }
     JointVector result(static_cast<Eigen::Index>(count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -205,6 +204,9 @@ Robot load_robot(const std::string& folder) {
   const Keys keys(file);
   Robot robot;
   robot.folder = folder;
+  const std::string base = keys.text("base");
+  if (base != "legs" && base != "deck") keys.refuse("base", quoted(base), "legs or deck");
+  robot.on_legs = base == "legs";
   robot.base_link = keys.text("base_link");
   robot.tip_link = keys.text("tip_link");
   robot.camera_frame = keys.text("camera_frame");
@@ -224,8 +226,11 @@ Robot load_robot(const std::string& folder) {
   robot.ready =
       keys.numbers("ready", count, -prf_core::kMaxJointPosition, prf_core::kMaxJointPosition);
   require_ready_within(robot, keys, chain);
+  robot.shoulder = keys.numbers("shoulder", 3, -2.0, 2.0);
+  robot.reach = keys.number("reach", 0.1, 2.0);
   if (keys.has("acceleration")) {
-    robot.acceleration = keys.numbers("acceleration", count, 1e-3, prf_core::kMaxAcceleration);
+    chain.limits.acceleration =
+        keys.numbers("acceleration", count, 1e-3, prf_core::kMaxAcceleration);
   }
   if (keys.has("jerk")) robot.jerk = keys.numbers("jerk", count, 1e-3, kMaxJerk);
 

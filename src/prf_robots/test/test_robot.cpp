@@ -74,7 +74,7 @@ TEST(Robots, OfThisPackageLoad) {
     const Robot robot = load_robot(entry.path().string());
     EXPECT_EQ(robot.kinematics->joint_count(), static_cast<int>(robot.joints.size()));
     const Eigen::Isometry3d ready = robot.kinematics->forward(robot.ready);
-    const auto again = robot.kinematics->inverse(ready, robot.ready, 1);
+    const auto again = robot.kinematics->inverse(ready, robot.ready, {1});
     EXPECT_TRUE(again.solved);
     EXPECT_LT((again.q - robot.ready).norm(), 1e-6);
     ++found;
@@ -100,9 +100,9 @@ TEST_F(RobotFolder, RefusesKeysThatAreNotRight) {
   expect_refused("0.01", "0.5", {"driver_period = \"0.5\"", "[0.002, 0.025]"});
   expect_refused("0.01", "[]", {"driver_period", "a number within"});
   expect_refused("tip_link: tool", "tip_link: [tool]", {"tip_link", "a name"});
-  expect_refused("[3.14,", "[", {"ready", "6 numbers"});
-  expect_refused("[3.14,", "[.nan,", {"ready", ".nan"});
-  expect_refused("1.9", "3.5", {"ready = 3.5", "3.14159", "elbow_joint"});
+  expect_refused("[-0.595,", "[", {"ready", "6 numbers"});
+  expect_refused("[-0.595,", "[.nan,", {"ready", ".nan"});
+  expect_refused("-2.208", "-3.5", {"ready = -3.5", "3.14159", "elbow_joint"});
   expect_refused("driver_period", "jerk: [1, 1, 1, 1, 1, 0]\ndriver_period", {"jerk = \"0\""});
   expect_refused("driver_period", "kinematics: magic\ndriver_period",
                  {"\"magic\"", "chain or jaco2"});

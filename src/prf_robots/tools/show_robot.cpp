@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says what a robot's folder holds, or in one line what is wrong with it (exit code 2).
+// Says what a robot's folder holds, or in one line what is wrong with it (exit code 2). With --urdf
+// or --KEY it prints the URDF or that text of robot.yaml alone, for launch files.
 #include <cstdio>
 #include <exception>
 #include <prf_robots/robot.hpp>
@@ -28,12 +29,22 @@ void print(const prf_robots::Robot& robot) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: show_robot NAME|/path/to/folder\n", stderr);
+  const std::string option = argc == 3 ? argv[1] : "";
+  const bool known = option == "--urdf" || option == "--base_link" || option == "--tip_link";
+  if (argc != (known ? 3 : 2)) {
+    std::fputs("usage: show_robot [--urdf|--base_link|--tip_link] NAME|/path/to/folder\n", stderr);
     return 2;
   }
   try {
-    print(prf_robots::load_robot(prf_robots::robot_folder(argv[1])));
+    const auto robot = prf_robots::load_robot(prf_robots::robot_folder(argv[argc - 1]));
+    if (!known) {
+      print(robot);
+      return 0;
+    }
+    const std::string& text = option == "--urdf"        ? robot.urdf
+                              : option == "--base_link" ? robot.base_link
+                                                        : robot.tip_link;
+    std::fwrite(text.data(), 1, text.size(), stdout);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "show_robot: %s\n", error.what());
     return 2;

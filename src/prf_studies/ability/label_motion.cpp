@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <platform_sim/robot_files.hpp>
 #include <prf_core/readable_file.hpp>
 #include <prf_decision/motion_observer.hpp>
+#include <prf_robots/robot.hpp>
 
 #include "command.hpp"
 #include "observed_run.hpp"
@@ -18,6 +18,8 @@ namespace prf_studies {
 namespace {
 
 using prf_decision::Intent;
+
+constexpr char kRobot[] = "jaco_v60";  // of the demonstration
 
 struct Task {
   std::vector<std::string> runs;
@@ -37,12 +39,12 @@ std::string share_file(const std::string& package, const std::string& name) {
   return folder + "/" + name;
 }
 
-prf_decision::ArmLimits configured_limits() {
+prf_decision::ArmLimits configured_limits(const prf_robots::Robot& robot) {
   const std::string path = share_file("prf_decision", "config/decision.yaml");
   prf_core::require_readable_file(path);
   try {
     const YAML::Node limits = YAML::LoadFile(path)["arm_limits"];
-    return {limits[0].as<double>(), limits[1].as<double>()};
+    return {limits[0].as<double>(), limits[1].as<double>(), robot.kinematics};
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + " cannot be read as decision.yaml: " + error.what());
   }
@@ -52,8 +54,9 @@ void complete(Task& task) {
   if (task.demonstration.empty()) {
     task.demonstration = share_file("prf_experiments", "demonstrations/inspect_box.csv");
   }
-  task.ability.arm = configured_limits();
-  task.ability.start = platform_sim::configured_arm_start();
+  const auto robot = prf_robots::load_robot(prf_robots::robot_folder(kRobot));
+  task.ability.arm = configured_limits(robot);
+  task.ability.start = robot.ready;
   task.ability.goal_in_target =
       elte_planner::load_demonstration(task.demonstration).goal_in_target();
   task.ability.validate();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What prf_control takes from messages, and what its controller commands then.
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <memory>
 #include <prf_ros/conversions.hpp>
 
 #include "../../prf_control/node/messages.hpp"
@@ -11,7 +13,10 @@ using namespace prf_control;
 
 NodeParams params() {
   NodeParams result{};
-  result.controller.joint_prefix = "j2s7s300_joint_";
+  for (int i = 1; i <= 7; ++i) {
+    result.robot.joints.push_back("j2s7s300_joint_" + std::to_string(i));
+  }
+  result.controller.joints = result.robot.joints;
   result.controller.max_tracking_error = 0.2;
   result.controller.max_wait = 0.3;
   FollowerParams& follower = result.controller.follower;
@@ -23,8 +28,9 @@ NodeParams params() {
   follower.damping = 0.1;
   follower.orientation_weight = 0.2;
   follower.branch_patience = 1.0;
-  result.planning_frame = "j2s7s300_link_base";
-  result.hand_frame = "j2s7s300_end_effector";
+  result.robot.base_link = "j2s7s300_link_base";
+  result.robot.tip_link = "j2s7s300_end_effector";
+  result.robot.kinematics = std::make_shared<jaco_kinematics::JacoArm>();
   return result;
 }
 
@@ -42,13 +48,13 @@ void check(const std::vector<ControlResult>& results, const NodeParams& node) {
 
 FUZZ_TARGET(control_messages) {
   static const NodeParams node = params();
-  ArmController controller(node.controller);
+  ArmController controller(node.robot.kinematics, node.controller);
   fuzz::for_each_message(bytes, [&](int kind, fuzz::Bytes part) {
     fuzz::accepts([&] {
       sensor_msgs::JointState joints;
       trajectory_msgs::MultiDOFJointTrajectory setpoint;
       if (kind % 2 == 0 && fuzz::read(part, joints)) {
-        const JointReading reading = to_sample(joints, node.joint_names());
+        const JointReading reading = to_sample(joints, node.robot.joints);
         fuzz::expect(reading.refusal.size() < 2000, "a refusal quotes in a few words");
         if (reading.sample) check(controller.add_joints(*reading.sample), node);
       } else if (kind % 2 == 1 && fuzz::read(part, setpoint)) {

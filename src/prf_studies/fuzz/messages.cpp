@@ -15,8 +15,13 @@
 
 namespace {
 
-const prf_decision::RobotNames kRobot{"j2s7s300_link_base", "j2s7s300_end_effector",
-                                      "j2s7s300_joint_"};
+const prf_robots::Robot kRobot = [] {
+  prf_robots::Robot robot;
+  robot.base_link = "j2s7s300_link_base";
+  robot.tip_link = "j2s7s300_end_effector";
+  for (int i = 1; i <= 7; ++i) robot.joints.push_back("j2s7s300_joint_" + std::to_string(i));
+  return robot;
+}();
 
 }  // namespace
 
@@ -93,7 +98,7 @@ FUZZ_TARGET(simulator_messages) {
     trajectory_msgs::JointTrajectory command;
     geometry_msgs::WrenchStamped wrench;
     if (!is_wrench && fuzz::read(bytes, command)) {
-      const auto arm = platform_sim::to_arm_command(command);
+      const auto arm = platform_sim::to_arm_command(command, kRobot.joints);
       fuzz::expect(arm.positions.allFinite() && arm.velocities.allFinite(),
                    "a command of the arm is finite");
     } else if (is_wrench && fuzz::read(bytes, wrench)) {

@@ -30,6 +30,8 @@ struct JointLimits {
   JointVector upper;     // [rad] or [m], +infinity where the joint is continuous
   JointVector velocity;  // [rad/s] or [m/s], > 0
   JointVector effort;    // [N m] or [N]
+  // [rad/s^2] or [m/s^2], > 0; +infinity where nothing is known. A URDF does not have it.
+  JointVector acceleration;
 };
 
 // What of a pose the arm follows.
@@ -49,6 +51,13 @@ struct Placement {
   Jacobian jacobian;
 };
 
+// How inverse() seeks.
+struct IkSearch {
+  std::uint64_t draws = 0;  // seed of the random numbers for other places to begin at
+  // The solution nearest to the seed, however close to a limit, and none from another place.
+  bool nearest = false;
+};
+
 struct IkResult {
   bool solved = false;  // both errors below 1e-9
   JointVector q;        // if not solved: the seed
@@ -66,11 +75,13 @@ class ArmKinematics {
   [[nodiscard]] virtual Placement placement(const JointVector& q) const = 0;
 
   // The solution that a search from the seed finds; where it finds none, one from another place,
-  // the first that is found. `draws` is the seed of the random numbers for those places. Continuous
-  // joints, and joints of more than a turn, are in the turn nearest to the seed that their limits
-  // allow.
+  // the first that is found. Continuous joints, and joints of more than a turn, are in the turn
+  // nearest to the seed that their limits allow.
   [[nodiscard]] virtual IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
-                                         std::uint64_t draws) const = 0;
+                                         const IkSearch& options = {}) const = 0;
+
+  // Whether any joints within limits give the pose.
+  [[nodiscard]] virtual bool reaches(const Eigen::Isometry3d& pose) const;
 
   // A local minimum over the limits of
   //   |p(q) - p|^2 + (orientation_weight angle(R(q), R))^2
@@ -84,9 +95,17 @@ class ArmKinematics {
     return joint_count() < 6 ? Task::kPositionAndAxis : Task::kPose;
   }
 
-  // Redundancy objective: the part of a wanted joint motion that leaves the task alone, to first
-  // order. 0 for an arm without redundancy. Added to a seed, it moves the next solution that way.
+  // Redundancy objective: a joint motion of norm below 1 that leaves the task alone, to first
+  // order, and takes the arm to a preferred posture; here toward the middle between the limits.
+  // Added to a seed, it moves the next solution that way. 0 for an arm without redundancy.
+  [[nodiscard]] virtual JointVector posture_motion(const JointVector& q) const;
+
+  // The part of a wanted joint motion that leaves the task alone, to first order. 0 for an arm
+  // without redundancy.
   [[nodiscard]] JointVector self_motion(const JointVector& q, const JointVector& wanted) const;
+
+  // Between the limits of each joint; 0 where it has none.
+  [[nodiscard]] JointVector middle() const;
 
  protected:
   ArmKinematics() = default;

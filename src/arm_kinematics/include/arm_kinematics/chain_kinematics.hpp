@@ -22,7 +22,7 @@ class ChainKinematics : public ArmKinematics {
   [[nodiscard]] Eigen::Isometry3d forward(const JointVector& q) const override;
   [[nodiscard]] Placement placement(const JointVector& q) const override;
   [[nodiscard]] IkResult inverse(const Eigen::Isometry3d& pose, const JointVector& seed,
-                                 std::uint64_t draws) const override;
+                                 const IkSearch& options = {}) const override;
 
  private:
   Chain chain_;

@@ -14,10 +14,14 @@ class JacoArm : public arm_kinematics::ArmKinematics {
   [[nodiscard]] Eigen::Isometry3d forward(const arm_kinematics::JointVector& q) const override;
   [[nodiscard]] arm_kinematics::Placement placement(
       const arm_kinematics::JointVector& q) const override;
-  // The solution nearest to the seed; nothing is drawn.
-  [[nodiscard]] arm_kinematics::IkResult inverse(const Eigen::Isometry3d& pose,
-                                                 const arm_kinematics::JointVector& seed,
-                                                 std::uint64_t draws) const override;
+  // The solution of least cost (IkParams); nothing is drawn.
+  [[nodiscard]] arm_kinematics::IkResult inverse(
+      const Eigen::Isometry3d& pose, const arm_kinematics::JointVector& seed,
+      const arm_kinematics::IkSearch& options = {}) const override;
+  [[nodiscard]] bool reaches(const Eigen::Isometry3d& pose) const override;
+  // To the preferred arm angle, away from the limits of joints 2 and 6.
+  [[nodiscard]] arm_kinematics::JointVector posture_motion(
+      const arm_kinematics::JointVector& q) const override;
 
  private:
   arm_kinematics::JointLimits limits_;

@@ -6,7 +6,8 @@
 
 namespace platform_sim {
 
-using ArmVector = Eigen::Matrix<double, 7, 1>;
+/// One entry for each joint of the arm, from base to hand; 8 at most.
+using ArmVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;
 
 /// How an arm's driver carries out what it is sent.
 struct DriverModel {
@@ -25,9 +26,9 @@ struct DriverModel {
 
 /// One message to a driver.
 struct DriverPoint {
-  ArmVector positions = ArmVector::Zero();   ///< rad
-  ArmVector velocities = ArmVector::Zero();  ///< rad/s
-  double duration = 0.0;                     ///< s, of trajectories: until positions are reached
+  ArmVector positions;    ///< rad
+  ArmVector velocities;   ///< rad/s
+  double duration = 0.0;  ///< s, of trajectories: until positions are reached
 };
 
 }  // namespace platform_sim

@@ -14,17 +14,18 @@
 
 namespace platform_sim {
 
-/// Joints in the order of World::joint_names(): 12 of the legs, 7 of the arm.
+/// Joints in the order of World::joint_names(): 12 of the legs, if there are any, then the arm's.
 struct JointStates {
   Eigen::VectorXd positions;   ///< rad
   Eigen::VectorXd velocities;  ///< rad/s
   Eigen::VectorXd efforts;     ///< Nm, torque of the motor
 };
 
-/// Rigid-body world: a floating-base robot from a URDF stands on a kinematic platform before an
+/// Rigid-body world: a robot from a URDF stands on a kinematic platform before an
 /// open box, which the platform or a cart carries or which stands ashore. Deterministic: two worlds
-/// built alike and stepped alike are bitwise equal. At time 0 the robot has settled for 2 s on the
-/// platform, which is still at rest.
+/// built alike and stepped alike are bitwise equal. A robot on legs has
+/// the joints of v60_gait::leg_joint_names(); another one is bolted to the platform with its first
+/// link. At time 0 the robot has settled for 2 s on the platform, which is still at rest.
 class World {
  public:
   /// Length of a physics step, s.
@@ -48,7 +49,9 @@ class World {
   /// State of any link of the robot description, frames without mass included, in world.
   /// Throws std::invalid_argument if there is no such link.
   [[nodiscard]] FrameState frame(const std::string& link) const;
-  [[nodiscard]] FrameState base() const;  ///< frame("base_link")
+  [[nodiscard]] const RobotParts& robot() const;
+  [[nodiscard]] const std::string& base_link() const;  ///< the robot's first link
+  [[nodiscard]] FrameState base() const;               ///< frame(base_link())
   [[nodiscard]] FrameState platform() const;
   [[nodiscard]] FrameState carrier()
       const;  ///< of the box: platform(), the cart, or the shore, which rests
@@ -74,7 +77,7 @@ class World {
   /// The same. Forgets what waits and brings the arm to rest where it is.
   void halt_driver();
   /// ArmMode::kCompliant only, else std::invalid_argument. Force, N, at the origin of
-  /// j2s7s300_end_effector and torque, Nm, on the hand, in world axes, held until the next call.
+  /// the hand's link and torque, Nm, on the hand, in world axes, held until the next call.
   void apply_hand_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
   /// A disturbance: force, N, in world axes, at the origin of a link during the next step only;
   /// several before one step add up. Throws std::invalid_argument if there is no such link or the

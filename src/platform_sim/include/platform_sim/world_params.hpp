@@ -12,6 +12,16 @@
 
 namespace platform_sim {
 
+/// The parts of the robot description that the world has to know.
+struct RobotParts {
+  std::vector<std::string> arm_joints;  ///< from base to hand, 1 to 8
+  std::string hand;                     ///< link that the arm moves
+  bool on_legs = true;                  ///< of the Vision 60; else bolted to the platform
+
+  /// Throws std::invalid_argument with name and bound.
+  void validate() const;
+};
+
 enum class ArmMode {
   kServo,      ///< velocity-limited position servos, see command_arm()
   kCompliant,  ///< gravity compensated and back-drivable, to be guided by the hand
@@ -31,12 +41,14 @@ struct WorldParams {
   std::uint64_t seed =
       0;  ///< of the platform's phase, the cart's push, leg sensors and placing errors
   double friction = 0.8;         ///< Coulomb coefficient of all robot contacts
-  double base_start_x = -0.156;  ///< m, body centre in the platform frame at the start
+  double base_start_x = -0.156;  ///< m, body centre, or the foot of a robot without legs, in the
+                                 ///< platform frame at the start
   double base_start_y = 0.0;     ///< m
   double base_start_yaw = 0.0;   ///< rad
   ArmMode arm_mode = ArmMode::kServo;
-  ArmVector arm_start = ArmVector::Zero();  ///< rad
-  double servo_gain = 20.0;                 ///< 1/s, velocity per position error of an arm joint
+  RobotParts robot;
+  ArmVector arm_start;        ///< rad
+  double servo_gain = 20.0;   ///< 1/s, velocity per position error of an arm joint
   double arm_latency = 0.02;  ///< s, from a command to the arm's servos; chosen by hand
   /// Of ArmMode::kServo: the arm does what this driver is sent, see command_driver(); none: it
   /// takes command_arm().

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kMaxForce = 1e5;  // N or Nm, far above what 150 m/s2 take
 constexpr int kBase = -1;          // Bullet's number of a multibody's base
-const std::string kBaseLink = "base_link";
 
 }  // namespace
 
-BaseCarrier::BaseCarrier(BulletScene& scene, RobotModel& robot) : scene_(scene), robot_(robot) {
-  const btTransform base = to_bullet(robot.frame(kBaseLink).pose);
+BaseCarrier::BaseCarrier(BulletScene& scene, RobotModel& robot)
+    : scene_(scene), robot_(robot), link_(robot.tree().bodies.front().name) {
+  const btTransform base = to_bullet(robot.frame(link_).pose);
   const btTransform base_in_centre = robot.multibody().getBaseWorldTransform().inverse() * base;
   constraint_ = std::make_unique<btMultiBodyFixedConstraint>(
       &robot.multibody(), kBase, static_cast<btRigidBody*>(nullptr), base_in_centre.getOrigin(),
@@ -29,7 +29,7 @@ BaseCarrier::~BaseCarrier() { scene_.world().removeMultiBodyConstraint(constrain
 // A step removes the share erp of what the constraint sees as its error: it is shown a frame so far
 // ahead that the base arrives.
 void BaseCarrier::move_to(const Eigen::Isometry3d& base) {
-  const Eigen::Isometry3d now = robot_.frame(kBaseLink).pose;
+  const Eigen::Isometry3d now = robot_.frame(link_).pose;
   const double ahead = 1.0 / scene_.world().getSolverInfo().m_erp;
   const Eigen::Vector3d turn =
       prf_core::log_so3(Eigen::Quaterniond(base.linear() * now.linear().transpose()));

@@ -31,7 +31,7 @@ DriverArm::DriverArm(BulletScene& scene, RobotModel& robot, const std::vector<st
 }
 
 ArmVector DriverArm::measured() const {
-  ArmVector positions;
+  ArmVector positions(static_cast<Eigen::Index>(joints_.size()));
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     positions[static_cast<Eigen::Index>(i)] = robot_.position(*joints_[i]);
   }
@@ -45,7 +45,8 @@ void DriverArm::send(const DriverPoint& point, double time) {
 
 void DriverArm::halt() {
   queue_.clear();
-  taken_ = DriverPoint{measured(), ArmVector::Zero(), 0.0};
+  const ArmVector now = measured();
+  taken_ = DriverPoint{now, ArmVector::Zero(now.size()), 0.0};
   from_ = {taken_.positions, taken_.velocities};
   integral_ = taken_.positions;
 }
@@ -77,7 +78,7 @@ void DriverArm::begin(const DriverPoint& point, double time) {
 DriverArm::Desired DriverArm::desired(double time) const {
   const double duration = taken_.duration;
   const double s = duration > 0.0 ? (time - taken_at_) / duration : 1.0;
-  if (!(s < 1.0)) return {taken_.positions, ArmVector::Zero()};
+  if (!(s < 1.0)) return {taken_.positions, ArmVector::Zero(taken_.positions.size())};
   const ArmVector step = taken_.positions - from_.positions;
   const ArmVector v0 = duration * from_.velocities;
   const ArmVector v1 = duration * taken_.velocities;
@@ -89,19 +90,18 @@ DriverArm::Desired DriverArm::desired(double time) const {
 
 void DriverArm::update(double time) {
   take(time);
-  ArmVector velocity = ArmVector::Zero();
+  ArmVector velocity = ArmVector::Zero(taken_.positions.size());
   if (model_.takes == Takes::kVelocities) {
     const bool lasts = model_.lifetime == 0.0 || time - taken_at_ < model_.lifetime;
     if (lasts) velocity = taken_.velocities;
     const ArmVector now = measured();
     integral_ = (integral_ + time_step_ * velocity)
-                    .cwiseMax(now - ArmVector::Constant(kLongestWindUp))
-                    .cwiseMin(now + ArmVector::Constant(kLongestWindUp));
+                    .cwiseMax(now - ArmVector::Constant(now.size(), kLongestWindUp))
+                    .cwiseMin(now + ArmVector::Constant(now.size(), kLongestWindUp));
     velocity += kIntegralGain * (integral_ - now);
   } else {
-    const Desired wanted = model_.takes == Takes::kPositions
-                               ? Desired{taken_.positions, ArmVector::Zero()}
-                               : desired(time);
+    const Desired wanted =
+        model_.takes == Takes::kPositions ? Desired{taken_.positions, velocity} : desired(time);
     velocity = wanted.velocities + model_.servo_gain * (wanted.positions - measured());
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {

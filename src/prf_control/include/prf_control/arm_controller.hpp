@@ -29,7 +29,7 @@ struct ArmControllerParams {
   FollowerParams follower;
   double max_tracking_error;  // [rad], 0.01 to 1; of a measured joint to its command
   double max_wait;            // [s], 0.02 to 5; data time: for a set-point, and between two ticks
-  std::string joint_prefix;   // in the reasons, joints are called <prefix>1 .. <prefix>7
+  std::vector<std::string> joints;  // names from base to hand, for the reasons
 
   void validate() const;
 };
@@ -76,8 +76,9 @@ struct Reasons;
 
 class ArmController {
  public:
-  // Throws std::invalid_argument for parameters that validate() refuses.
-  explicit ArmController(const ArmControllerParams& params);
+  // Throws std::invalid_argument for parameters that validate() refuses, without an arm, and for
+  // another number of names than the arm has joints.
+  ArmController(Arm arm, const ArmControllerParams& params);
 
   // Another share of the velocity limits and another acceleration limit, from the next tick on.
   // Throws std::invalid_argument for values that FollowerParams::validate() refuses.
@@ -107,6 +108,7 @@ class ArmController {
   void measure_error(const Tick& tick, const std::optional<MotionState>& last,
                      ControlResult& result) const;
   [[nodiscard]] Reasons reasons() const;
+  [[nodiscard]] const JointLimits& joint_limits() const { return follower_.arm().limits(); }
 
   ArmControllerParams params_;
   TickJoiner joiner_;

@@ -8,14 +8,15 @@
 // brake before the position limits. A joint outside its position limits never goes farther out. All
 // joints are slowed by one factor, so a motion from rest to a goal at rest is a straight line in
 // joint space, without overshoot.
-// Units: radians, seconds. std::invalid_argument for non-finite input or dt <= 0.
+// Units: radians (a prismatic joint: metres), seconds. All vectors have one entry a joint.
+// std::invalid_argument for non-finite input or dt <= 0.
 #pragma once
 
-#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <arm_kinematics/arm_kinematics.hpp>
 
 namespace prf_control {
 
-using jaco_kinematics::JointVector;
+using arm_kinematics::JointVector;
 
 struct MotionLimits {
   JointVector lower;         // [rad], -infinity where the joint is continuous
@@ -28,9 +29,13 @@ struct MotionLimits {
 };
 
 struct MotionState {
-  JointVector position = JointVector::Zero();  // [rad]
-  JointVector velocity = JointVector::Zero();  // [rad/s]
+  JointVector position;  // [rad]
+  JointVector velocity;  // [rad/s]
 };
+
+[[nodiscard]] inline MotionState at_rest(const JointVector& position) {
+  return {position, JointVector::Zero(position.size())};
+}
 
 struct VelocityRange {
   JointVector lower;  // [rad/s]

@@ -6,8 +6,7 @@
 // A local search (NLopt, SLSQP) from `start`: the answer is continuous with it and never worse.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <arm_kinematics/arm_kinematics.hpp>
 
 namespace prf_control {
 
@@ -15,8 +14,9 @@ namespace prf_control {
 Eigen::Matrix<double, 6, 1> pose_error(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
 
 // `orientation_weight` [m/rad]: how many metres one radian is worth, > 0.
-jaco_kinematics::JointVector nearest_pose(const Eigen::Isometry3d& hand_in_base,
-                                          const jaco_kinematics::JointVector& start,
-                                          double orientation_weight);
+arm_kinematics::JointVector nearest_pose(const arm_kinematics::ArmKinematics& arm,
+                                         const Eigen::Isometry3d& hand_in_base,
+                                         const arm_kinematics::JointVector& start,
+                                         double orientation_weight);
 
 }  // namespace prf_control

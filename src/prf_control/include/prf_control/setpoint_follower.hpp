@@ -13,22 +13,27 @@
 //             set-point far from the last one all joints go together
 //
 // While the command is on its goal, the redundancy drifts away from limits and singularities
-// (IkParams of jaco_kinematics). The state is the last command; start() sets it to measured joints
-// at rest. From outside the joint limits the arm first goes back inside, at kSlowly; hold() leaves
-// it where it is. A set-point that is reached within the limits is met exactly: forward(command) =
-// T. The hand is j2s7s300_end_effector, its pose and twist are in j2s7s300_link_base; m, rad, s.
+// (posture_motion of the arm's kinematics). The state is the last command; start() sets it to
+// measured joints at rest. From outside the joint limits the arm first goes back inside, at
+// kSlowly; hold() leaves it where it is. A set-point that is reached within the limits is met
+// exactly: forward(command) = T. The hand is the tip of the arm's kinematics, its pose and twist
+// are in their base; m, rad, s.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <arm_kinematics/arm_kinematics.hpp>
+#include <memory>
 #include <optional>
 
 #include "prf_control/joint_motion.hpp"
 
 namespace prf_control {
 
+using Arm = std::shared_ptr<const arm_kinematics::ArmKinematics>;
+
 struct FollowerParams {
   double velocity_scale;      // share of the URDF's joint velocity limits, 0.01 to 1
-  double acceleration;        // [rad/s^2] of every joint, 0.1 to 20
+  double acceleration;        // [rad/s^2] of every joint, 0.1 to 20; less where the arm allows less
   double max_joint_step;      // [rad], 0.01 to 1
   double far_position;        // [m], 0.001 to 1; from the last set-point; beyond it all joints go
                               // together
@@ -77,7 +82,8 @@ struct FollowerStep {
 
 class SetpointFollower {
  public:
-  explicit SetpointFollower(const FollowerParams& params);
+  // std::invalid_argument for parameters that validate() refuses, and without an arm.
+  SetpointFollower(Arm arm, const FollowerParams& params);
 
   // At rest at `measured`, also outside the joint limits; forgets everything else.
   void start(const JointVector& measured);
@@ -89,6 +95,7 @@ class SetpointFollower {
   [[nodiscard]] const MotionState& state() const { return state_.value(); }
 
   [[nodiscard]] const MotionLimits& limits() const { return limits_; }
+  [[nodiscard]] const arm_kinematics::ArmKinematics& arm() const { return *arm_; }
 
   // Other parameters from the next step on, std::invalid_argument if validate() refuses them; a
   // motion above new velocity limits brakes down to them. Braking uses the greatest acceleration
@@ -113,6 +120,7 @@ class SetpointFollower {
                           double dt) const;
   bool is_far(const Eigen::Isometry3d& hand_in_base) const;
 
+  Arm arm_;
   FollowerParams params_;
   double braking_ = 0.0;  // [rad/s^2]
   MotionLimits limits_;

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <optional>
 #include <prf_core/stream_joiner.hpp>
 #include <string>

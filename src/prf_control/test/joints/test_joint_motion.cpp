@@ -16,8 +16,10 @@ constexpr double kRounding = 1e-11;
 
 MotionLimits some_limits() {
   MotionLimits limits;
-  limits.lower.setConstant(-1.0);
-  limits.upper.setConstant(1.5);
+  limits.lower.setConstant(7, -1.0);
+  limits.upper.setConstant(7, 1.5);
+  limits.velocity.resize(7);
+  limits.acceleration.resize(7);
   limits.lower[0] = limits.lower[6] = -std::numeric_limits<double>::infinity();
   limits.upper[0] = limits.upper[6] = std::numeric_limits<double>::infinity();
   limits.velocity << 0.6, 0.6, 0.6, 0.6, 0.8, 0.8, 0.8;
@@ -27,7 +29,7 @@ MotionLimits some_limits() {
 }
 
 MotionState rest(std::initializer_list<double> q) {
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   std::copy(q.begin(), q.end(), state.position.data());
   return state;
 }
@@ -48,7 +50,7 @@ void expect_within_limits(const MotionState& before, const MotionState& after, d
 
 JointVector random_joints(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
-  return JointVector::NullaryExpr([&] { return uniform(random); });
+  return JointVector::NullaryExpr(7, [&] { return uniform(random); });
 }
 
 TEST(ApproachSpeed, LeavesTheDistanceExactlyWhenBrakingEveryPeriod) {
@@ -92,7 +94,7 @@ TEST(StepToward, ReachesAFarGoalInAStraightLineWithoutOvershoot) {
 TEST(StepToward, IsNotMuchSlowerThanTheSlowestJointAloneWouldBe) {
   const MotionLimits limits = some_limits();
   const MotionState goal = rest({4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0});
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   int ticks = 0;
   while ((state.position - goal.position).norm() > 1e-6 && ticks < 2000) {
     state = step_toward(state, goal, kDt, limits).state;
@@ -104,7 +106,7 @@ TEST(StepToward, IsNotMuchSlowerThanTheSlowestJointAloneWouldBe) {
 
 TEST(StepToward, MeetsAMovingGoalExactly) {
   const MotionLimits limits = some_limits();
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   MotionState goal = rest({0.4, 0.4, -0.3, 0.2, 0.3, 0.3, -0.5});
   goal.velocity << 0.3, -0.05, 0.04, 0.0, -0.05, 0.05, 0.3;
   for (int i = 0; i < 400; ++i) {
@@ -119,7 +121,7 @@ TEST(StepToward, MeetsAMovingGoalExactly) {
 
 TEST(StepToward, NamesTheJointThatMetItsVelocityLimit) {
   const MotionState goal = rest({0.1, 0.0, 0.0, 0.0, 1.4, 0.0, 0.0});
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   LimitedStep step;
   for (int i = 0; i < 50; ++i) {
     step = step_toward(state, goal, kDt, some_limits());
@@ -136,7 +138,7 @@ TEST(StepToward, BrakesBeforeAPositionLimitThatTheGoalLiesBeyond) {
   const MotionLimits limits = some_limits();
   MotionState goal = rest({0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   goal.velocity[1] = 0.5;
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   bool met = false;
   for (int i = 0; i < 800; ++i) {
     const LimitedStep step = step_toward(state, goal, kDt, limits);
@@ -153,7 +155,7 @@ TEST(StepToward, KeepsEveryLimitForRandomGoalsAndPeriods) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> periods(1, 4);
   std::uniform_int_distribution<int> patience(1, 200);
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   for (int goals = 0; goals < 400; ++goals) {
     MotionState goal{random_joints(random, 2.0), random_joints(random, 1.0)};
     for (int i = patience(random); i > 0; --i) {
@@ -171,9 +173,9 @@ TEST(StepToward, KeepsEveryLimitForRandomGoalsAndPeriods) {
 TEST(StepToward, SettlesSoonOnAGoalGivenInFullMotion) {
   MotionLimits limits = some_limits();
   std::mt19937 random(2);
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   for (int goals = 0; goals < 300; ++goals) {
-    MotionState goal;
+    MotionState goal = at_rest(JointVector::Zero(7));
     goal.position = random_joints(random, 0.9);
     for (int i = 0; i < 80; ++i) state = step_toward(state, goal, kDt, limits).state;
 
@@ -190,7 +192,7 @@ TEST(StepToward, SettlesSoonOnAGoalGivenInFullMotion) {
 
 TEST(StepToRest, KeepsTheDirectionAndStopsAsFastAsAllowed) {
   const MotionLimits limits = some_limits();
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   state.velocity << 0.5, -0.3, 0.0, 0.1, 0.2, -0.6, 0.4;
   const JointVector direction = state.velocity.normalized();
   int ticks = 0;
@@ -209,9 +211,9 @@ TEST(StepToRest, KeepsTheDirectionAndStopsAsFastAsAllowed) {
 // before its position limits
 TEST(StepToRest, BrakesWithTheBrakingLimitAndSpeedsUpWithTheAcceleration) {
   MotionLimits limits = some_limits();
-  limits.acceleration.setConstant(0.1);
-  limits.braking.setConstant(4.0);
-  MotionState state;
+  limits.acceleration.setConstant(7, 0.1);
+  limits.braking.setConstant(7, 4.0);
+  MotionState state = at_rest(JointVector::Zero(7));
   state.position[1] = 1.45;  // 0.05 rad from its limit
   state.velocity << 0.5, 0.5, 0.0, 0.1, 0.2, -0.6, 0.4;
   for (int i = 0; i < 15; ++i) {
@@ -232,7 +234,7 @@ TEST(StepToRest, BrakesWithTheBrakingLimitAndSpeedsUpWithTheAcceleration) {
 // farther out
 TEST(JointMotion, ComesBackFromOutsideTheLimitsWithoutAJump) {
   const MotionLimits limits = some_limits();
-  MotionState state;
+  MotionState state = at_rest(JointVector::Zero(7));
   state.position[3] = 1.7;
   EXPECT_EQ(step_to_rest(state, kDt, limits).state.position, state.position);
   const VelocityRange range = allowed_velocities(state, kDt, limits);
@@ -242,7 +244,7 @@ TEST(JointMotion, ComesBackFromOutsideTheLimitsWithoutAJump) {
   EXPECT_EQ(step_toward(state, outward, kDt, limits).state.position[3], 1.7);
   double farthest = 1.7;
   for (int i = 0; i < 200; ++i) {
-    const MotionState next = step_toward(state, MotionState(), kDt, limits).state;
+    const MotionState next = step_toward(state, at_rest(JointVector::Zero(7)), kDt, limits).state;
     ASSERT_LE(next.position[3], farthest);
     ASSERT_LE(std::abs(next.position[3] - state.position[3]), 0.6 * kDt + kRounding);
     ASSERT_LE(std::abs(next.velocity[3] - state.velocity[3]), 4.0 * kDt + kRounding);
@@ -255,14 +257,17 @@ TEST(JointMotion, ComesBackFromOutsideTheLimitsWithoutAJump) {
 // Fault 43: state, goal or period that is not finite -> refused
 TEST(JointMotion, RefusesInputThatIsNotFinite) {
   const MotionLimits limits = some_limits();
-  MotionState bad;
+  MotionState bad = at_rest(JointVector::Zero(7));
   bad.position[3] = std::nan("");
-  EXPECT_THROW((void)step_toward(bad, MotionState(), kDt, limits), std::invalid_argument);
-  EXPECT_THROW((void)step_toward(MotionState(), bad, kDt, limits), std::invalid_argument);
+  EXPECT_THROW((void)step_toward(bad, at_rest(JointVector::Zero(7)), kDt, limits),
+               std::invalid_argument);
+  EXPECT_THROW((void)step_toward(at_rest(JointVector::Zero(7)), bad, kDt, limits),
+               std::invalid_argument);
   EXPECT_THROW((void)step_to_rest(bad, kDt, limits), std::invalid_argument);
   for (const double dt : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW((void)step_toward(MotionState(), MotionState(), dt, limits),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)step_toward(at_rest(JointVector::Zero(7)), at_rest(JointVector::Zero(7)), dt, limits),
+        std::invalid_argument);
   }
 }
 

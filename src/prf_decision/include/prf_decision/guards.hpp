@@ -6,7 +6,9 @@
 // a longer horizon may be wrong without harm.
 #pragma once
 
+#include <arm_kinematics/arm_kinematics.hpp>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,11 +23,12 @@ struct GuardParams {
   Duration pause_after{0};    // since the last measurement, T1 = coast_limits[0]
   Duration reverse_after{0};  // T2 = coast_limits[1] > T1
   Duration stop_after{0};     // T3 = coast_limits[2] > T2
-  Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();  // of the arm, in the planning frame, m
-  double max_reach = 0;                                // hand from the shoulder, m
-  double workspace_radius = 0;                         // target from the shoulder, m
-  double max_target_speed = 0;                         // m/s
-  double clearance = 0;                                // of the task, m
+  Eigen::Vector3d shoulder = Eigen::Vector3d::Zero();        // of the arm, in the planning frame, m
+  double max_reach = 0;                                      // hand from the shoulder, m
+  double workspace_radius = 0;                               // target from the shoulder, m
+  double max_target_speed = 0;                               // m/s
+  double clearance = 0;                                      // of the task, m
+  std::shared_ptr<const arm_kinematics::ArmKinematics> arm;  // that shall reach the goal
   FollowingParams following;
 
   // std::invalid_argument names the parameter, its value and the bound.

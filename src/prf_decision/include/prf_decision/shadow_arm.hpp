@@ -22,6 +22,7 @@ namespace prf_decision {
 struct ArmLimits {
   double velocity_scale = 0;  // share of the joints' velocity limits, 0.01 .. 1
   double acceleration = 0;    // rad/s^2 of every joint, 0.1 .. 20
+  prf_control::Arm arm;
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;

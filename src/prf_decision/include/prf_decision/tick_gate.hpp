@@ -18,9 +18,9 @@
 // 0.1 s, or else its stream's own messages would count as old until its stamp is reached.
 #pragma once
 
+#include <arm_kinematics/arm_kinematics.hpp>
 #include <chrono>
 #include <cstdint>
-#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <memory>
 #include <optional>
 #include <prf_core/stream.hpp>
@@ -59,11 +59,11 @@ struct ForecastArrival {
 
 struct Tick {
   Stamp stamp{0};
-  std::optional<Pose> hand;                                 // as measured; none: not known
-  std::optional<jaco_kinematics::JointVector> joints = {};  // that it was measured by
-  std::vector<ForecastArrival> forecasts;                   // used from this tick on, in order
-  std::optional<PlanResult> plan_result;  // used from this tick on, the newest one
-  std::optional<ControlReport> control;   // the newest one that may be used, also an earlier one
+  std::optional<Pose> hand;                                // as measured; none: not known
+  std::optional<arm_kinematics::JointVector> joints = {};  // that it was measured by
+  std::vector<ForecastArrival> forecasts;                  // used from this tick on, in order
+  std::optional<PlanResult> plan_result;                   // used from this tick on, the newest one
+  std::optional<ControlReport> control;  // the newest one that may be used, also an earlier one
   bool forecast_silent = false;
   bool planner_silent = false;
   bool control_silent = false;
@@ -81,7 +81,7 @@ class TickGate {
   explicit TickGate(const GateParams& params);
 
   PushResult push_tick(Stamp stamp, const std::optional<Pose>& hand = std::nullopt,
-                       const std::optional<jaco_kinematics::JointVector>& joints = std::nullopt);
+                       const std::optional<arm_kinematics::JointVector>& joints = std::nullopt);
   PushResult push_forecast(ForecastArrival arrival);
   PushResult push_plan_result(PlanResult result);
   PushResult push_control_report(ControlReport report);
@@ -109,7 +109,7 @@ class TickGate {
   // The ticks alone begin a new run.
   struct MeasuredArm {
     std::optional<Pose> hand;
-    std::optional<jaco_kinematics::JointVector> joints;
+    std::optional<arm_kinematics::JointVector> joints;
   };
   prf_core::StampedQueue<MeasuredArm> ticks_;
   prf_core::StampedQueue<ForecastArrival> forecasts_{{Duration::max(), kClockJump}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <prf_core/require.hpp>
+#include <stdexcept>
 
 #include "prf_decision/view_keeper.hpp"
 
@@ -14,14 +15,13 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-bool is_in_reach(const Pose& hand, const std::optional<jaco_kinematics::JointVector>& joints) {
+bool is_in_reach(const arm_kinematics::ArmKinematics& arm, const Pose& hand,
+                 const std::optional<arm_kinematics::JointVector>& joints) {
   const Eigen::Isometry3d pose =
       Eigen::Translation3d(hand.position) * hand.orientation.normalized();
-  using jaco_kinematics::IkStatus;
-  if (!joints) return jaco_kinematics::any_inverse(pose).status == IkStatus::kSolved;
-  const auto found = jaco_kinematics::inverse(pose, *joints);
-  return found.status == IkStatus::kSolved &&
-         (found.q - *joints).cwiseAbs().maxCoeff() <= TargetSearch::kFarthest;
+  if (!joints) return arm.reaches(pose);
+  const auto found = arm.inverse(pose, *joints);
+  return found.solved && (found.q - *joints).cwiseAbs().maxCoeff() <= TargetSearch::kFarthest;
 }
 
 // The looks of a loop: as far apart as its radius and the spacing say.
@@ -36,6 +36,7 @@ void SearchParams::validate() const {
   require_between("search[0]", to_seconds(time), 0, 600, "s");
   require_between("search[1]", spacing, 0.05, 1, "rad");
   require_between("search[2]", widest, 0, 1.4, "rad");
+  if (!arm) throw std::invalid_argument("the search needs an arm");
 }
 
 void TargetSearch::begin(const Pose& stand, const Pose& goal_in_target,
@@ -88,7 +89,7 @@ void TargetSearch::go_on(const SearchParams& params, const SearchInput& input) {
   do {
     look_ = after(params, look_);
     wanted_ = pose_of(params, look_);
-  } while ((look_.loop > 0 || look_.place > 0) && !is_in_reach(wanted_, input.joints));
+  } while ((look_.loop > 0 || look_.place > 0) && !is_in_reach(*params.arm, wanted_, input.joints));
   width_ = angle_of(params, look_);
   since_ = input.stamp;
 }

@@ -12,7 +12,7 @@ constexpr double kView = 0.35;  // rad off the camera's axis, that it sees
 
 DecisionParams searching_params() {
   DecisionParams params = usual_params();
-  params.search = {from_seconds(8), 0.4, 1.2};
+  params.search = {from_seconds(8), 0.4, 1.2, jaco()};
   params.time_limit = from_seconds(60);
   params.reference.view_angle = 0.05;
   return params;

@@ -15,15 +15,17 @@ using arm_kinematics::JointVector;
 
 struct Robot {
   std::string folder;
-  std::string urdf;  // the text of robot.urdf
+  std::string urdf;      // the text of robot.urdf
+  bool on_legs = false;  // of the Vision 60; else bolted to the deck
   std::string base_link;
   std::string tip_link;
   std::string camera_frame;
-  std::vector<std::string> joints;          // from base to tip
-  JointVector ready;                        // [rad] or [m]
-  std::optional<JointVector> acceleration;  // [rad/s^2] or [m/s^2] of each joint
-  std::optional<JointVector> jerk;          // [rad/s^3] or [m/s^3] of each joint
-  double driver_period = 0.0;               // [s]
+  std::vector<std::string> joints;  // from base to tip
+  Eigen::Vector3d shoulder;         // [m] in base_link: centre of what the tip reaches
+  double reach = 0.0;               // [m] of the tip from the shoulder, arm straight: its radius
+  JointVector ready;                // [rad] or [m]
+  std::optional<JointVector> jerk;  // [rad/s^3] or [m/s^3] of each joint
+  double driver_period = 0.0;       // [s]
   std::shared_ptr<const arm_kinematics::ArmKinematics> kinematics;
 };
 

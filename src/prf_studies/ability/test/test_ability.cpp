@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <jaco_kinematics/jaco_arm.hpp>
+#include <jaco_kinematics/jaco_kinematics.hpp>
 #include <limits>
+#include <memory>
 
 namespace prf_studies {
 namespace {
@@ -15,14 +18,14 @@ using prf_core::to_seconds;
 using prf_decision::Intent;
 
 prf_control::JointVector ready_pose() {
-  prf_control::JointVector q;
+  prf_control::JointVector q(7);
   q << 1.600, 1.372, 0.516, 0.967, -1.637, 2.307, -0.298;
   return q;
 }
 
 AbilityParams standing_params() {
   AbilityParams params;
-  params.arm = {0.95, 4.0};
+  params.arm = {0.95, 4.0, std::make_shared<jaco_kinematics::JacoArm>()};
   params.start = ready_pose();
   params.warm_up = 0;
   return params;

@@ -12,14 +12,15 @@
 
 #include "motion_reference.hpp"
 #include "platform_sim/platform_motion.hpp"
-#include "platform_sim/robot_files.hpp"
+#include "platform_sim/put_robot.hpp"
 #include "v60_gait/gravity.hpp"
 
 namespace {
 
 using namespace motion_capture;
 
-constexpr double kWarmUp = 6.0;  // s
+constexpr double kWarmUp = 6.0;        // s
+constexpr char kRobot[] = "jaco_v60";  // that was captured
 constexpr double kTolerance = 0.3;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kOtherWindow = 8.0;  // s, of a condition that was not captured
@@ -56,7 +57,7 @@ platform_sim::WorldParams world_params(const MotionCondition& condition, long se
   config.motion = condition.motion;
   config.gait = condition.gait;
   config.seed = static_cast<std::uint64_t>(seed);
-  config.arm_start = platform_sim::configured_arm_start();
+  platform_sim::put_robot(kRobot, &config);
   return config;
 }
 
@@ -64,7 +65,7 @@ platform_sim::WorldParams world_params(const MotionCondition& condition, long se
 void swing_arm(const platform_sim::ArmVector& start, platform_sim::World& world) {
   constexpr double kSwing = 0.25, kRate = 2.4;  // rad, rad/s
   platform_sim::ArmVector positions = start;
-  platform_sim::ArmVector velocities = platform_sim::ArmVector::Zero();
+  platform_sim::ArmVector velocities = platform_sim::ArmVector::Zero(start.size());
   for (const Eigen::Index joint : {0, 1, 3}) {
     positions[joint] += kSwing * std::sin(kRate * world.time());
     velocities[joint] = kSwing * kRate * std::cos(kRate * world.time());
@@ -75,12 +76,12 @@ void swing_arm(const platform_sim::ArmVector& start, platform_sim::World& world)
 void disturb(const Study& study, platform_sim::World& world) {
   constexpr double kPeriod = 3.0, kLength = 0.2;  // s
   constexpr double kTurn = 2.4;                   // rad, from push to push
-  const char* const hand = "j2s7s300_end_effector";
+  const std::string& hand = world.robot().hand;
   if (study.payload > 0.0) world.push(hand, {0.0, 0.0, -v60_gait::kGravity * study.payload});
   const double pushes = std::floor(world.time() / kPeriod);
   if (study.push == 0.0 || pushes < 1.0 || world.time() - kPeriod * pushes > kLength) return;
   const Eigen::Vector3d side(std::cos(kTurn * pushes), std::sin(kTurn * pushes), 0.0);
-  world.push(std::fmod(pushes, 2.0) == 0.0 ? hand : "base_link", study.push * side);
+  world.push(std::fmod(pushes, 2.0) == 0.0 ? hand : world.base_link(), study.push * side);
 }
 
 // Returns whether the robot is still on its feet at the end.
@@ -284,7 +285,7 @@ std::size_t run(const Study& study) {
           " cannot be written: is its folder there, and may this user write to it?");
   }
   const std::string urdf =
-      study.captures.empty() ? platform_sim::installed_robot_description() : "";
+      study.captures.empty() ? prf_robots::load_robot(prf_robots::robot_folder(kRobot)).urdf : "";
   nlohmann::ordered_json json{{"conditions", nlohmann::ordered_json::array()}};
   std::size_t falls = 0;
   for (const MotionCondition& condition : study.conditions) {

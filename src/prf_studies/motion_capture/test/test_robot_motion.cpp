@@ -16,7 +16,7 @@ namespace motion_capture {
 namespace {
 
 std::string robot_urdf() {
-  std::ifstream file(ROBOT_URDF_FILE);
+  std::ifstream file(std::string(ROBOT_FOLDER) + "/robot.urdf");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
@@ -24,6 +24,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 platform_sim::WorldParams ready_robot(const std::string& motion, const std::string& gait) {
   platform_sim::WorldParams config;
+  platform_sim::put_robot(ROBOT_FOLDER, &config);
   config.motion = motion;
   config.gait = gait;
   config.seed = 3;
@@ -128,10 +129,10 @@ TEST(Legs, TrotOnWhenTheRobotIsPushedOrCarriesAPayload) {
   platform_sim::World world(robot_urdf(), ready_robot("light", "step"));
   MotionObserver observer;
   const auto disturb = [](platform_sim::World& now) {
-    now.push("j2s7s300_end_effector", {0.0, 0.0, -15.0});
+    now.push(now.robot().hand, {0.0, 0.0, -15.0});
     const double since = std::fmod(now.time(), 2.0);
     if (now.time() < 2.0 || since > 0.2) return;
-    now.push(now.time() < 4.0 ? "j2s7s300_end_effector" : "base_link", {0.0, -80.0, 0.0});
+    now.push(now.time() < 4.0 ? now.robot().hand : now.base_link(), {0.0, -80.0, 0.0});
   };
   while (world.time() < 7.0) observer.step(world, disturb);
   EXPECT_FALSE(world.fallen());
@@ -153,7 +154,7 @@ TEST(Legs, StepWithoutBeingExcitedByTheArm) {
   MotionPiece hand;
   while (world.time() < 6.0) {
     platform_sim::ArmVector positions = config.arm_start;
-    platform_sim::ArmVector velocities = platform_sim::ArmVector::Zero();
+    platform_sim::ArmVector velocities = platform_sim::ArmVector::Zero(7);
     positions[1] += 0.016 * std::sin(rate * world.time());
     velocities[1] = 0.016 * rate * std::cos(rate * world.time());
     world.command_arm(positions, velocities);
@@ -161,7 +162,7 @@ TEST(Legs, StepWithoutBeingExcitedByTheArm) {
     still_observer.step(still);
     hand.push_back(observer.samples().back());
     hand.back().tag =
-        world.base().pose.inverse() * world.frame("j2s7s300_end_effector").pose.translation();
+        world.base().pose.inverse() * world.frame(world.robot().hand).pose.translation();
   }
   MotionPiece tag = observer.samples();
   for (std::size_t i = 0; i < tag.size(); ++i) tag[i].tag -= still_observer.samples()[i].tag;

@@ -16,7 +16,8 @@
 // than kPatience.
 #pragma once
 
-#include <jaco_kinematics/jaco_kinematics.hpp>
+#include <arm_kinematics/arm_kinematics.hpp>
+#include <memory>
 #include <optional>
 
 #include "prf_decision/types.hpp"
@@ -27,6 +28,7 @@ struct SearchParams {
   Duration time{0};    // after which the target counts as lost, parameter search[0]; 0: no search
   double spacing = 0;  // rad, of the loops and of the places of one, search[1]
   double widest = 0;   // rad, of a loop, search[2]
+  std::shared_ptr<const arm_kinematics::ArmKinematics> arm;  // that looks
 
   // std::invalid_argument names the parameter, its value and the bound.
   void validate() const;
@@ -34,9 +36,9 @@ struct SearchParams {
 
 struct SearchInput {
   Stamp stamp{0};
-  std::optional<Pose> hand;                            // as measured
-  std::optional<jaco_kinematics::JointVector> joints;  // that it was measured by, rad
-  bool follows = true;                                 // the arm does
+  std::optional<Pose> hand;                           // as measured
+  std::optional<arm_kinematics::JointVector> joints;  // that it was measured by, rad
+  bool follows = true;                                // the arm does
 };
 
 class TargetSearch {

@@ -2,9 +2,8 @@
 """The command export."""
 import os
 
-from catkin.find_in_workspaces import find_in_workspaces
-
-from prf_experiments import files, python_packages
+from prf_experiments import files, python_packages, robots
+from prf_experiments.record import recording
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.run.arguments import ArgumentError
@@ -24,13 +23,13 @@ def _libraries():
     return export
 
 
-def _robot(path):
-    """URDF of the arm on the quadruped as text, or that of the file."""
+def _robot(path, bag):
+    """URDF of the bag's robot as text, or that of the file."""
     if path is None:
-        found = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")
-        if not found:
+        try:
+            path = robots.load(recording.description(bag).get("arguments", {}).get("robot", robots.DEFAULT)).urdf_file
+        except robots.RobotError:
             return None
-        path = found[0]
     with open(path, encoding="utf-8") as stream:
         return stream.read()
 
@@ -52,7 +51,7 @@ def export_main(words: list[str]) -> int:
         export = _libraries()
         line = session.ProgressLine()
         try:
-            robot = _robot(options.robot)
+            robot = _robot(options.robot, options.bag)
             with files.appearing(options.out) as stream:
                 counts = export.export(
                     options.bag, stream, robot,

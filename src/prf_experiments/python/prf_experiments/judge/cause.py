@@ -150,7 +150,7 @@ def _lost(data):
 
 def _touched(data):
     """[(stamp, clause)] of the first contact that counts."""
-    first = next((contact for contact in judge.arm_contacts(data.contacts)
+    first = next((contact for contact in judge.arm_contacts(data)
                   if contact.force > judge.CONTACT_ISSUE), None)
     if first is None:
         return []

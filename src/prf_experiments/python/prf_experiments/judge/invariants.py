@@ -21,10 +21,10 @@ from typing import Any
 import numpy as np
 import rospkg
 import yaml
-from catkin.find_in_workspaces import find_in_workspaces
 
 from prf_experiments.judge import judge
-from prf_experiments.record.recording import ARM_JOINTS, Joints, Recording
+from prf_experiments.record.recording import Joints, Recording
+from prf_experiments.robots import Robot
 
 TOLERANCE = 1e-6  # relative, and rad or rad/s
 TOLD = 3  # violations of a kind
@@ -48,18 +48,17 @@ class Findings:
         return {"violations": self.violations, **self.figures}
 
 
-def limits() -> Limits:
+def limits(robot: Robot) -> Limits:
     """Of the packages as they are installed."""
-    urdf = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")[0]
     joints: Any = {joint.get("name"): joint
-                   for joint in xml.etree.ElementTree.parse(urdf).iter("joint")}
-    bounds = {name: joints[name].find("limit") for name in ARM_JOINTS}
+                   for joint in xml.etree.ElementTree.parse(robot.urdf_file).iter("joint")}
+    bounds = {name: joints[name].find("limit") for name in robot.joints}
     with open(os.path.join(rospkg.RosPack().get_path("prf_control"), "config",
                            "arm_controller.yaml"), encoding="utf-8") as stream:
         parameters = yaml.safe_load(stream)
 
     def of(name, default):
-        return np.array([float(bounds[joint].get(name, default)) for joint in ARM_JOINTS])
+        return np.array([float(bounds[joint].get(name, default)) for joint in robot.joints])
     return Limits(of("lower", -np.inf), of("upper", np.inf), of("velocity", np.nan),
                   float(parameters["acceleration"]), float(parameters["max_tracking_error"]))
 
@@ -72,7 +71,7 @@ def _apart(first, second):
 
 def _at(joints: Joints, stamps: np.ndarray) -> np.ndarray:
     """Positions at those stamps, NaN where there are none."""
-    found = np.full((len(stamps), len(ARM_JOINTS)), np.nan)
+    found = np.full((len(stamps), joints.positions.shape[1]), np.nan)
     _, rows, columns = np.intersect1d(stamps, joints.stamps, return_indices=True)
     found[rows] = joints.positions[columns]
     return found
@@ -97,7 +96,7 @@ def check(data: Recording, bounds: Limits | None = None,
     if data.commands is None or data.measured is None or not len(data.commands.stamps):
         findings.violations.append("no joint command")
         return findings
-    bounds = limits() if bounds is None else bounds
+    bounds = limits(data.robot) if bounds is None else bounds
     stamps, q, v = data.commands.stamps, data.commands.positions, data.commands.velocities
     infinite = ~(np.isfinite(q) & np.isfinite(v))
     _tell(findings, data, stamps, infinite, q, "command that is not finite")

@@ -95,15 +95,14 @@ def longest_out_of_view(stamps: np.ndarray, seen: np.ndarray) -> int:
     return int(np.max(np.diff(detected)))
 
 
-def is_arm(link: str) -> bool:
-    """Arm, hand or camera; the arm's base is bolted to the body and counts as body."""
-    return link.startswith(("j2s7s300_", "camera")) and link != "j2s7s300_link_base"
+def arm_contacts(recording: Recording) -> list[Contact]:
+    """Contacts of arm, hand or camera with anything that is not part of them.
 
-
-def arm_contacts(contacts: list[Contact]) -> list[Contact]:
-    """Contacts of arm, hand or camera with anything that is not part of them."""
-    return [contact for contact in contacts
-            if is_arm(contact.links[0]) != is_arm(contact.links[1])]
+    The arm's base is bolted to the body and counts as body.
+    """
+    moves = recording.robot.moves
+    return [contact for contact in recording.contacts
+            if moves(contact.links[0]) != moves(contact.links[1])]
 
 
 def strongest_by_pair(contacts: list[Contact]) -> dict[str, float]:
@@ -118,7 +117,7 @@ def obstacle_contact(recording: Recording) -> float | None:
     """Largest force of arm, hand or camera on the obstacle, N; None when none stood there."""
     if recording.description.get("arguments", {}).get("obstacle", "none") == "none":
         return None
-    return max((contact.force for contact in arm_contacts(recording.contacts)
+    return max((contact.force for contact in arm_contacts(recording)
                 if OBSTACLE in contact.links), default=0.0)
 
 
@@ -197,11 +196,11 @@ def _reached(stamps, lateral, along, bound, hold, deadline):
 
 
 def _fall(recording):
-    """(stamp or None, lowest height, largest tilt) of the body against the deck."""
+    """(stamp or None, lowest height, largest tilt) of the body against the deck; one bolted to it does not fall."""
     stamps, at_platform, at_base = np.intersect1d(recording.platform.stamps, recording.base.stamps,
                                                   return_indices=True)
     height, tilt = posture(recording.platform.values[at_platform], recording.base.values[at_base])
-    fallen = list(stamps[(height < FALLEN_HEIGHT) | (tilt > FALLEN_TILT)])
+    fallen = list(stamps[(height < FALLEN_HEIGHT) | (tilt > FALLEN_TILT)]) if recording.robot.on_legs else []
     fallen += [contact.stamp for contact in recording.contacts if contact.links == LYING]
     return int(min(fallen)) if fallen else None, float(np.min(height)), float(np.max(tilt))
 
@@ -238,7 +237,7 @@ def judge(recording: Recording) -> Verdict:
     inspected = _reached(stamps, lateral, along, INSPECTED_BOUND, INSPECTED_HOLD, deadline)
     seen = np.isfinite(recording.detections[:, 0])
     out_of_view = longest_out_of_view(recording.detection_stamps, seen)
-    touching = arm_contacts(recording.contacts)
+    touching = arm_contacts(recording)
     pairs = strongest_by_pair(touching)
     force = max(pairs.values(), default=0.0)
     fall, height, tilt = _fall(recording)
@@ -308,7 +307,7 @@ def harm(recording: Recording) -> list[str]:
     fall, _, _ = _fall(recording)
     if fall is not None:
         found.append(f"the robot fell at {recording.seconds(fall):.2f} s")
-    touching = arm_contacts(recording.contacts)
+    touching = arm_contacts(recording)
     if any(contact.force > EMERGENCY_STOP for contact in touching):
         found.append(_contact_sentence(recording, touching, EMERGENCY_STOP))
     return found

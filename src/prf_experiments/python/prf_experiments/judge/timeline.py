@@ -96,7 +96,7 @@ def _control(data):
 
 def _contacts(data):
     by_pair: dict[tuple, list] = {}
-    for contact in judge.arm_contacts(data.contacts):
+    for contact in judge.arm_contacts(data):
         by_pair.setdefault(contact.links, []).append(contact)
     for links, contacts in by_pair.items():
         stamps = np.array([contact.stamp for contact in contacts])

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 from prf_experiments.record.poses import Joints, Poses
 from prf_experiments.robot import arm, description
 from prf_msgs import bags
 
-ARM_BASE, HAND, OPTICAL = "j2s7s300_link_base", "j2s7s300_end_effector", "camera_optical_frame"
+ROBOT = robots.load()
+ARM_BASE, HAND, OPTICAL = ROBOT.base_link, ROBOT.tip_link, ROBOT.camera_frame
 STANDING = 0.53  # m, body above the deck
 STAND_IN = "rehearsal/joint_states"
 

@@ -13,7 +13,7 @@ class Poses:
 
 @dataclass
 class Joints:
-    """Of the seven joints of the arm, from base to hand."""
+    """Of the j joints of the arm, from base to hand."""
     stamps: np.ndarray  # (n,) ns
-    positions: np.ndarray  # (n, 7) rad
-    velocities: np.ndarray  # (n, 7) rad/s
+    positions: np.ndarray  # (n, j) rad
+    velocities: np.ndarray  # (n, j) rad/s

@@ -9,18 +9,15 @@ import numpy as np
 import rosgraph_msgs.msg
 from numpy.typing import ArrayLike
 
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 from prf_experiments.record import estimated, topics
 from prf_experiments.record.poses import Joints, Poses
 from prf_msgs import bags
 
-PLANNING_FRAME = estimated.ARM_BASE
-BODY_FRAME = "base_link"
+# Of the default robot, for bags of something else than trials.
+PLANNING_FRAME, ARM_JOINTS = robots.load().base_link, list(robots.load().joints)
 TICK = 10_000_000  # ns, of the simulator; a driver may have another one
 NEEDED = topics.SENSORS + topics.GROUND_TRUTH + topics.OUTPUTS  # of a trial's bag
-ARM_JOINTS = [f"j2s7s300_joint_{number}" for number in range(1, 8)]
-
-
 RecordingError = bags.BagError  # also: the bag does not hold a trial
 
 
@@ -103,6 +100,7 @@ class Recording:
     plans: list
     control: Control
     arm_base_in_body: np.ndarray  # (7,), from tf_static
+    robot: robots.Robot = field(default_factory=robots.load)
     warnings: list = field(default_factory=list)  # warnings and worse of rosout
     diagnostics: dict = field(default_factory=dict)  # {node: {key: [text of each report]}}
     description: dict = field(default_factory=dict)
@@ -159,7 +157,7 @@ def read_description(text: str) -> dict:
     for part in ("arguments", "versions"):
         if not isinstance(content.get(part, {}), dict):
             raise ValueError(f"{part} of {topics.DESCRIPTION} must be an object")
-    for name in ("demonstration", "fault"):
+    for name in ("demonstration", "fault", "robot"):
         if not isinstance(content.get("arguments", {}).get(name) or "", str):
             raise ValueError(f"argument {name} of {topics.DESCRIPTION} must be a text")
     return content
@@ -193,8 +191,9 @@ def tag_row(message: Any, tag_id: int) -> tuple[float, ...]:
 class _Reader:
     """Collects what one pass through the bag gives: stamps and rows of each topic."""
 
-    def __init__(self, tag_id):
+    def __init__(self, tag_id, robot):
         self._tag_id = tag_id
+        self.robot = robot
         self._stamps, self._rows = {}, {}
         self._fixed = {}  # child: (parent, pose of child in parent)
         self._names: list | None = None
@@ -245,17 +244,17 @@ class _Reader:
         if message.name != self._names:
             self._names = list(message.name)
             self._at = [self._names.index(name) if name in self._names else None
-                        for name in ARM_JOINTS]
+                        for name in self.robot.joints]
         return tuple(values[at] if at is not None and at < len(values) else np.nan
                      for values in (message.position, message.velocity) for at in self._at)
 
     def _command(self, message):
         if len(message.points) != 1:
-            return (np.nan,) * (2 * len(ARM_JOINTS))
+            return (np.nan,) * (2 * len(self.robot.joints))
         point = message.points[0]
         at = {name: row for row, name in enumerate(message.joint_names)}
         return tuple(values[at[name]] if at.get(name, len(values)) < len(values) else np.nan
-                     for values in (point.positions, point.velocities) for name in ARM_JOINTS)
+                     for values in (point.positions, point.velocities) for name in self.robot.joints)
 
     def _keep_event(self, message):
         self.fault_events.append(read_event(message.data))
@@ -325,7 +324,7 @@ class _Reader:
         return topic in self._rows
 
     def joints(self, topic):
-        values = np.array(self._rows[topic], dtype=float).reshape(-1, 2 * len(ARM_JOINTS))
+        values = np.array(self._rows[topic], dtype=float).reshape(-1, 2 * len(self.robot.joints))
         return Joints(self.stamps(topic), *np.hsplit(values, 2))
 
     def forecasts(self):
@@ -350,7 +349,11 @@ def read(path: str, tag_id: int = 0, without: Sequence[str] = (), moved: str = "
     Of the topics `without` it need not have a message. Where there is no ground truth, `moved` are the joints whose
     hand is looked at; else a stand-in's, if there is one.
     """
-    reader = _Reader(tag_id)
+    try:
+        robot = robots.load(description(path).get("arguments", {}).get("robot", robots.DEFAULT))
+        reader = _Reader(tag_id, robot)
+    except robots.RobotError as error:
+        raise RecordingError(f"{path}: {error}") from None
     with bags.opened(path) as bag:
         found = bags.counts(bag)
         absent = () if any(found.get(name) for name in topics.GROUND_TRUTH) else tuple(topics.GROUND_TRUTH)
@@ -364,10 +367,10 @@ def read(path: str, tag_id: int = 0, without: Sequence[str] = (), moved: str = "
 
 
 def _recording(path, reader, images, moved):
-    arm_base_in_body = reader.fixed_pose(PLANNING_FRAME, BODY_FRAME)
+    base, body = reader.robot.base_link, reader.robot.root_link
+    arm_base_in_body = reader.fixed_pose(base, body)
     if arm_base_in_body is None:
-        raise RecordingError(f"{path}: tf_static does not place {PLANNING_FRAME} in {BODY_FRAME}, must: is it the bag "
-                             "of a trial?")
+        raise RecordingError(f"{path}: tf_static does not place {base} in {body}, must: is it the bag of a trial?")
     is_estimated = not reader.has("ground_truth/tag")
     moved = moved or (estimated.STAND_IN if reader.has(estimated.STAND_IN) else "joint_states")
     if is_estimated:
@@ -390,7 +393,7 @@ def _recording(path, reader, images, moved):
         forecasts=reader.forecasts(),
         plans=reader.plans,
         control=reader.control(),
-        arm_base_in_body=arm_base_in_body,
+        arm_base_in_body=arm_base_in_body, robot=reader.robot,
         measured=reader.joints(moved), commands=reader.joints("joint_command"),
         fault_events=reader.fault_events,
         warnings=reader.warnings, diagnostics=reader.diagnostics,

@@ -7,7 +7,6 @@ import subprocess
 import tempfile
 
 import PIL.Image
-from catkin.find_in_workspaces import find_in_workspaces
 from markupsafe import Markup
 
 from prf_experiments.judge import judge, world
@@ -27,7 +26,7 @@ def moments(data: Recording, figures: dict) -> list[tuple[float, str]]:
     found = [(0.0, "the start"), (end, "the end")]
     if figures.get("reached_s") is not None:
         found.append((figures["reached_s"], "reached"))
-    touching = judge.arm_contacts(data.contacts)
+    touching = judge.arm_contacts(data)
     if touching:
         worst = max(touching, key=lambda contact: contact.force)
         if worst.force > judge.CONTACT_ISSUE:
@@ -54,14 +53,6 @@ def _encoded(path):
         return base64.b64encode(stream.read()).decode("ascii")
 
 
-def _urdf():
-    found = find_in_workspaces(["share"], "jaco_v60_description", "urdf/jaco_v60.urdf")
-    if not found:
-        raise processes.ProcessError("jaco_v60_description has no urdf/jaco_v60.urdf: is the "
-                                     "workspace built and its setup.bash sourced?")
-    return found[0]
-
-
 def frames(bag: str, data: Recording, wanted: list[tuple[float, str]]) -> Markup:
     """HTML of the scene at some moments [(s since the first tick, words)]."""
     program, first = processes.executable("scene_drawing", "scene_picture"), 1e-9 * data.start
@@ -69,7 +60,7 @@ def frames(bag: str, data: Recording, wanted: list[tuple[float, str]]) -> Markup
     with tempfile.TemporaryDirectory() as folder:
         names = [os.path.join(folder, f"{row}.png") for row in range(len(wanted))]
         times = [f"{first + time:.3f}" for time, _ in wanted]
-        _run([program, _urdf(), bag, *(word for pair in zip(times, names) for word in pair)])
+        _run([program, data.robot.urdf_file, bag, *(word for pair in zip(times, names) for word in pair)])
         small = os.path.join(folder, "frame.webp")
         for (time, text), name in zip(wanted, names):
             with PIL.Image.open(name) as picture:
@@ -86,7 +77,7 @@ def film(bag: str, data: Recording) -> Markup:
     rate = min(FASTEST, max(1, int(MOST_PICTURES / seconds)))
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "trial.mp4")
-        _run([processes.executable("scene_drawing", "scene_film"), _urdf(), bag, out, str(rate)])
+        _run([processes.executable("scene_drawing", "scene_film"), data.robot.urdf_file, bag, out, str(rate)])
         return page.render("film_figure.html", content=_encoded(out))
 
 

@@ -37,7 +37,7 @@ RULES = [
 def target_figure(bag: str, data: recording.Recording, shown: str = "xyz") -> Markup:
     """The target over time; what was measured is placed with the encoders' transforms."""
     from prf_experiments.report import figures  # its library takes its time
-    camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), recording.PLANNING_FRAME,
+    camera = frames.lookup(frames.load(bag, "/robot_state_publisher"), data.robot.base_link,
                            "camera_optical_frame", data.detection_stamps)
     measured = data.detection_stamps, geometry.compose(camera, data.detections)[:, :3]
     stamps, positions, horizon = target.forecast(data)
@@ -66,7 +66,7 @@ def draw(bag: str, data: recording.Recording,
         ("Distance to the target", "By ground truth; dashed lines are the bounds of the verdict. "
          + figures.SHADES,
          page.plotted(lambda: figures.distances(data, camera_stamps, lateral, along,
-                                                judge.arm_contacts(data.contacts)))),
+                                                judge.arm_contacts(data)))),
         ("Target, posterior and phase", "In the arm's base frame. Measured: detections placed "
          "with the transforms of the encoders. True: simulator.",
          target_figure(bag, data)),

@@ -14,27 +14,27 @@ import sensor_msgs.msg
 import trajectory_msgs.msg
 
 import prf_msgs.msg
-from prf_experiments.record.recording import PLANNING_FRAME, pose_values
+from prf_experiments import robots
+from prf_experiments.record.recording import pose_values
 from prf_experiments.rivals.pose_servo import Move, PoseServo, ServoParams
 from prf_experiments.robot.arm import Chain
 
-HAND = "j2s7s300_end_effector"
 QUEUE = 1000
 State = prf_msgs.msg.ExecutionProgress
 
 
-def read_parameters() -> tuple[ServoParams, float]:
-    """ServoParams and pipeline_delay, s, from the private namespace; ValueError names what is wrong."""
+def read_parameters() -> tuple[ServoParams, float, robots.Robot]:
+    """ServoParams, pipeline_delay, s, and the robot, from the private namespace; ValueError names what is wrong."""
     given = {name: value for name, value in rospy.get_param("~", {}).items() if not name.startswith("__")}
-    known = {entry.name for entry in fields(ServoParams)} | {"pipeline_delay"}
+    known = {entry.name for entry in fields(ServoParams)} | {"pipeline_delay", "robot"}
     if set(given) != known:
         raise ValueError(f"{', '.join(sorted(set(given) ^ known))}: missing or unknown, start the node by its launch")
-    delay = float(given.pop("pipeline_delay"))
+    delay, robot = float(given.pop("pipeline_delay")), robots.load(given.pop("robot"))
     values: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value
                               for name, value in given.items()}
     params = ServoParams(**values)
     params.validate()
-    return params, delay
+    return params, delay, robot
 
 
 class Execution:
@@ -76,9 +76,9 @@ class Execution:
 
 
 class ServoNode:
-    def __init__(self, params: ServoParams, pipeline_delay: float):
-        self._execution, self._delay = Execution(params), pipeline_delay
-        self._arm = Chain(rospy.get_param("robot_description"), PLANNING_FRAME, HAND)
+    def __init__(self, params: ServoParams, pipeline_delay: float, robot: robots.Robot):
+        self._execution, self._delay, self._robot = Execution(params), pipeline_delay, robot
+        self._arm = Chain(rospy.get_param("robot_description"), robot.base_link, robot.tip_link)
         self._forecasts: list = []  # not yet in force
         self._goal: np.ndarray | None = None
         self._seen: tuple[float, np.ndarray] | None = None
@@ -110,11 +110,11 @@ class ServoNode:
         self._publish(message.header.stamp, self._execution.tick(now, hand, self._seen, self._goal))
 
     def _publish(self, stamp, move):
-        setpoint = trajectory_msgs.msg.MultiDOFJointTrajectory(joint_names=[HAND])
+        setpoint = trajectory_msgs.msg.MultiDOFJointTrajectory(joint_names=[self._robot.tip_link])
         progress = State(state=self._execution.state, reason=self._execution.reason, posterior=[1.0, 0.0, 0.0],
                          forecast_stamp=self._forecast_stamp, following_error=-1, following_rotation=-1, holdable=-1)
         for message in (setpoint, progress):
-            message.header.stamp, message.header.frame_id = stamp, PLANNING_FRAME
+            message.header.stamp, message.header.frame_id = stamp, self._robot.base_link
         if move is not None:
             pose, twist, kind = move.pose, move.twist, geometry_msgs.msg
             setpoint.points = [trajectory_msgs.msg.MultiDOFJointTrajectoryPoint(

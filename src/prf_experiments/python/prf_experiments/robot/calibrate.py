@@ -8,14 +8,15 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import yaml
 
-from prf_experiments import files, geometry
+from prf_experiments import files, geometry, robots
 from prf_experiments.record import recording
 from prf_experiments.robot import arm, calibration, description, efforts, made_motion
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_msgs import bags
 
-HAND, OPTICAL, MOUNT = "j2s7s300_end_effector", "camera_optical_frame", "camera_mount"
+ROBOT = robots.load()  # the one that is calibrated
+HAND, OPTICAL, MOUNT = ROBOT.tip_link, ROBOT.camera_frame, "camera_mount"
 SEEN_WITHIN = (1e-3, np.radians(0.2), 2e-3)  # m, rad, s: what --seeds must keep
 TOPICS = ("joint_states", "joint_command", "tag_detections")
 
@@ -47,7 +48,7 @@ def with_camera(urdf: str, camera_in_hand: np.ndarray) -> str:
 def _of_arm(names, positions) -> list[float] | None:
     """Positions of the arm's joints; None: not all are there and finite."""
     found = dict(zip(names, positions))
-    values = [found.get(name, math.nan) for name in recording.ARM_JOINTS]
+    values = [found.get(name, math.nan) for name in ROBOT.joints]
     return values if all(map(math.isfinite, values)) else None
 
 
@@ -71,7 +72,7 @@ def read(path: str, tag_id: int):
                     for one in message.detections if one.id == tag_id]
     if len(rows["joint_states"]) < 2:
         raise bags.BagError(f"{path}: {len(rows['joint_states'])} joint_states with the joints "
-                            f"{recording.ARM_JOINTS[0]} .. {recording.ARM_JOINTS[-1]}, must be at least 2")
+                            f"{ROBOT.joints[0]} .. {ROBOT.joints[-1]}, must be at least 2")
     start = rows["joint_states"][0][0]
 
     def arrays(topic):
@@ -118,7 +119,7 @@ def _told(found: calibration.Calibration, delay: float | None) -> str:
 def of_bag(path: str, out: str, tag_id: int, loaded: str | None, with_efforts: bool) -> int:
     before = loaded_offset(loaded) if loaded else 0.0
     (stamps, joints), (command_stamps, commands), (image_stamps, detections) = read(path, tag_id)
-    chain = arm.Chain(description.text(), recording.PLANNING_FRAME, HAND)
+    chain = arm.Chain(description.text(), ROBOT.base_link, HAND)
     found = calibration.calibrate(calibration.hand_of(chain, stamps, joints), (stamps[0], stamps[-1]),
                                   image_stamps, detections)
     delay = (calibration.arm_delay(command_stamps, commands, stamps, joints) if len(command_stamps) > 1 else None)
@@ -145,7 +146,7 @@ def of_bag(path: str, out: str, tag_id: int, loaded: str | None, with_efforts: b
 def of_seeds(count: int) -> int:
     """Made motions with known truth: 20 mm, 3 deg and 30 ms off. Prints the errors."""
     urdf, worst = description.text(), np.zeros(4)
-    chain, nominal = arm.Chain(urdf, recording.PLANNING_FRAME, HAND), _fixed(urdf, HAND, OPTICAL)
+    chain, nominal = arm.Chain(urdf, ROBOT.base_link, HAND), _fixed(urdf, HAND, OPTICAL)
     print("seed  camera mm   deg      image ms  arm ms   verdict")
     for seed in range(count):
         motion = made_motion.make(chain, nominal, seed)

@@ -10,6 +10,7 @@ import sensor_msgs.msg
 import std_msgs.msg
 import tf2_ros
 
+from prf_experiments import robots
 from prf_experiments.robot.findings import Expected, Finding, Heard, of_camera, of_topic
 from prf_experiments.run import arguments as args
 from prf_experiments.run import names
@@ -17,7 +18,7 @@ from prf_experiments.run import names
 JOINT_STATE, IMAGE, CAMERA_INFO = "sensor_msgs/JointState", "sensor_msgs/Image", "sensor_msgs/CameraInfo"
 CLASSES = {JOINT_STATE: sensor_msgs.msg.JointState, IMAGE: sensor_msgs.msg.Image,
            CAMERA_INFO: sensor_msgs.msg.CameraInfo}
-PLANNING_FRAME, OPTICAL_FRAME = "j2s7s300_link_base", "camera_optical_frame"
+ROBOT = robots.load()  # the one that is checked
 AGAIN = 2.0  # s between two checks while something is red
 
 
@@ -66,11 +67,11 @@ class Listener:
 
 def expectations(values: dict, driver: dict) -> list[Expected]:
     rate = 1.0 / float(driver.get("period", names.driver_period(values["driver"])))
-    joints = tuple(str(driver.get("joints", "")).split()) or tuple(f"j2s7s300_joint_{i}" for i in range(1, 8))
+    joints = tuple(str(driver.get("joints", "")).split()) or ROBOT.joints
     camera = rospy.resolve_name(values["camera"])
     return [Expected(rospy.resolve_name(values["joint_states"]), JOINT_STATE, rate, 0.05, joints=joints),
-            Expected(camera + "/image_raw", IMAGE, 30.0, 0.15, frame=OPTICAL_FRAME),
-            Expected(camera + "/camera_info", CAMERA_INFO, 30.0, 0.15, frame=OPTICAL_FRAME)]
+            Expected(camera + "/image_raw", IMAGE, 30.0, 0.15, frame=ROBOT.camera_frame),
+            Expected(camera + "/camera_info", CAMERA_INFO, 30.0, 0.15, frame=ROBOT.camera_frame)]
 
 
 def of_driver(master: rosgraph.Master, driver: dict) -> list[Finding]:
@@ -94,8 +95,8 @@ def of_frames(patience: float) -> Finding:
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer)
     try:
-        buffer.lookup_transform(PLANNING_FRAME, OPTICAL_FRAME, rospy.Time(0), rospy.Duration(patience))
-        return Finding("tf", True, f"{PLANNING_FRAME} to {OPTICAL_FRAME}")
+        buffer.lookup_transform(ROBOT.base_link, ROBOT.camera_frame, rospy.Time(0), rospy.Duration(patience))
+        return Finding("tf", True, f"{ROBOT.base_link} to {ROBOT.camera_frame}")
     except tf2_ros.TransformException as error:
         return Finding("tf", False, str(error).splitlines()[0][:120],
                        "robot_state_publisher needs joint_states with the arm's joints, and robot_description")

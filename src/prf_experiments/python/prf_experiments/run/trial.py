@@ -7,7 +7,7 @@ import sys
 
 import rospkg
 
-from prf_experiments import files
+from prf_experiments import files, robots
 from prf_experiments.faults import catalogue, disturbances, wiring
 from prf_experiments.judge import cause, invariants, judge, reaction
 from prf_experiments.record import recording, topics
@@ -127,8 +127,10 @@ def skill(values: dict) -> str:
     if values["demonstration"]:
         return values["demonstration"]
     stands = values.get("obstacle", "none") != "none"
+    robot = values.get("robot", robots.DEFAULT)
+    own = "inspect_box" if robot == robots.DEFAULT else os.path.basename(robot)
     return session.packaged("demonstrations",
-                            "inspect_box_from_the_right.csv" if stands else "inspect_box.csv")
+                            ("inspect_box_from_the_right" if stands else own) + ".csv")
 
 
 def skill_arguments(values: dict) -> list[str]:

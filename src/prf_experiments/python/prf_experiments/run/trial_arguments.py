@@ -5,6 +5,7 @@ import os
 import re
 from collections.abc import Sequence
 
+from prf_experiments import robots
 from prf_experiments.faults import catalogue, disturbances
 from prf_experiments.run import names
 from prf_experiments.run.arguments import (
@@ -43,6 +44,16 @@ def disturbed():
     return {"valid": "NAME:LEVEL[@TIME]", "parse": parse}
 
 
+def known_robots():
+    def parse(text):
+        try:
+            robots.load(text)
+        except robots.RobotError as error:
+            raise ArgumentError(str(error)) from None
+        return text
+    return {"valid": "|".join([*robots.names(), "FOLDER"]), "parse": parse}
+
+
 def motions():
     """A preset, FAMILY:LEVEL, or a file."""
     preset = choice_or_file(*names.motion_names(), endings=(".yaml", ".csv"))
@@ -75,6 +86,9 @@ NAMED = {
 # Given to trial.launch, and named where they are not the default.
 LAUNCHED = {
     **NAMED,
+    "robot": Argument(robots.DEFAULT, **known_robots(),
+                      meaning="one of prf_robots, or the path of a folder like those; without legs it is bolted to "
+                      "the deck, and the box stands ashore (scenario:=quay) unless told"),
     "scenario": Argument("treadmill", **choice(*names.of_worlds("scenarios")),
                          meaning="cart: the box is on a cart that a hand pushes aside; quay: it "
                          "stands ashore"),
@@ -134,10 +148,25 @@ def of_method(values: dict) -> dict:
                          if values[key] == LAUNCHED[key].default}}
 
 
+def of_robot(values: dict, words: Sequence[str]) -> dict:
+    """`values` of a robot without legs: the box stands ashore unless `words` say another scenario."""
+    name = values["robot"]
+    if values["driver"] and name != robots.DEFAULT:
+        raise ArgumentError(f"driver:={values['driver']} does not go with robot:={name}, valid: "
+                            f"robot:={robots.DEFAULT}")
+    if robots.load(name).on_legs:
+        return values
+    if values["gait"] != "stand":
+        raise ArgumentError(f"gait:={values['gait']} does not go with robot:={name}, which has no legs, valid: "
+                            "gait:=stand")
+    asked = any(word.startswith("scenario:=") for word in words)
+    return values if asked else {**values, "scenario": "quay"}
+
+
 def complete(values: dict, words: Sequence[str]) -> dict:
     """`values` with the parts of the method; the floor under the cart does not move: with motion none
     unless `words` say it."""
-    values = of_method(values)
+    values = of_robot(of_method(values), words)
     if values["scenario"] != "cart":
         if disturbances.moves_cart(values["disturb"]):
             raise ArgumentError(f"disturb:={values['disturb']} pushes a cart, valid: scenario:=cart")

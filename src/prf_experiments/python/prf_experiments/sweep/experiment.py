@@ -22,6 +22,7 @@ STUDIES = {
     "obstacles": "a post in the way of the demonstrated path, heeded or not",
     "faults": "every fault injected, standing and stepping: verdict, time to hold and to recover",
     "limits": "families of worlds with rising severity: where the framework breaks, and its parts",
+    "robots": "the same skill with other arms, on legs and bolted to the deck",
     "reactive": "target measured, forecast and true, posterior and phase; light motion, stepping",
 }
 SOAK = ("executions again and again under heavy motion, stepping, with faults at random: memory, "

@@ -53,7 +53,9 @@ def trials(study: Study, options: argparse.Namespace) -> list[dict]:
     found: list[dict] = []
     chosen = [values for condition in study.conditions(options)
               for values in sweep.product({**fixed, **condition}, axes)]
-    for trial_values in map(trial_arguments.of_method, chosen):
+    told = ["scenario:="] if "scenario" in {**axes, **study.fixed, **values} else []
+    for one in chosen:
+        trial_values = trial_arguments.of_robot(trial_arguments.of_method(one), told)
         if trial_values not in found:  # method:=paper may make two of them the same
             found.append(trial_values)
     return found

@@ -13,9 +13,8 @@ import yaml
 
 import elte_planner
 from elte_planner import Demonstration
-from prf_experiments.record.recording import PLANNING_FRAME
+from prf_experiments.robots import Robot
 
-HAND_FRAME = "j2s7s300_end_effector"
 MIN_ROWS = 10  # of what is recorded; shorter is a mistake
 
 
@@ -49,12 +48,13 @@ def read_executable(path: str) -> Demonstration:
     return found
 
 
-def make(times: np.ndarray, poses: np.ndarray, target: np.ndarray, command: str) -> Demonstration:
-    """What was recorded of the hand, with the command that did. Raises DemonstrationError."""
+def make(times: np.ndarray, poses: np.ndarray, target: np.ndarray, command: str,
+         robot: Robot) -> Demonstration:
+    """What was recorded of the robot's hand, with the command that did. Raises DemonstrationError."""
     if len(times) < MIN_ROWS:
         raise DemonstrationError(f"{len(times)} rows, must be at least {MIN_ROWS}")
     try:
-        made = Demonstration(times, poses[:, :3], poses[:, 3:], PLANNING_FRAME, HAND_FRAME, target,
+        made = Demonstration(times, poses[:, :3], poses[:, 3:], robot.base_link, robot.tip_link, target,
                              notes={"made by": command})
         elte_planner.require_executable(made, reach())
         return made

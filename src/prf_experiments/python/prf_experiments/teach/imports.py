@@ -22,9 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import prf_core
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 from prf_experiments.judge import judge
-from prf_experiments.record import recording
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
 from prf_experiments.teach import demonstration, teaching
@@ -169,7 +168,7 @@ def convert(path: str, target: np.ndarray | None, command: str) -> demonstration
     times, poses = teaching.resample(times[part], poses[part], teaching.RATE)
     if target is None:
         target = target_at_stand_off(poses[-1])
-    return demonstration.make(times, poses, target, command)
+    return demonstration.make(times, poses, target, command, robots.load())
 
 
 def pose(text: str) -> np.ndarray:
@@ -192,7 +191,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("source", help="file that ends with .bag, " + ", ".join(READERS))
     parser.add_argument("out", help="demonstration file to write (CSV)")
     parser.add_argument("--target-pose", type=pose, metavar='"x y z qx qy qz qw"',
-                        help="of the tag in " + recording.PLANNING_FRAME)
+                        help="of the tag in " + robots.load().base_link)
     options = parser.parse_args(words)
 
     def action():

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 import numpy as np
 import rosgraph
 
+from prf_experiments import robots
 from prf_experiments.judge import invariants
 from prf_experiments.record import recording
 from prf_experiments.run import arguments as args
@@ -45,7 +46,7 @@ def joint_share(path: str) -> tuple[np.ndarray, np.ndarray]:
     width = max(1, round(SMOOTHED / max(1e-3, float(np.median(np.diff(at))))))
     width = min(width, len(at) - 1)
     speed = np.abs(positions[width:] - positions[:-width]) / np.maximum(at[width:] - at[:-width], 1e-9)[:, None]
-    return at[width:], np.max(speed / invariants.limits().velocity, axis=1)
+    return at[width:], np.max(speed / invariants.limits(robots.load()).velocity, axis=1)
 
 
 def make(path: str, command: str, tag_id: int, cut: tuple[float, float], stretch: float, picture: str

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial.transform import Slerp
 
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 from prf_experiments.record import frames, recording, topics
 from prf_experiments.run import arguments as args
 from prf_experiments.run import session
@@ -63,27 +63,27 @@ def _stamp(message):
     return message.header.stamp.to_nsec()
 
 
-def _camera(path, buffer, detections):
+def _camera(path, buffer, detections, robot):
     """Poses (n, 7) of the camera in the planning frame, each in the frame that its message names."""
     stamps = [_stamp(message) for message in detections]
     poses = np.full((len(detections), 7), np.nan)
     for frame in dict.fromkeys(message.header.frame_id for message in detections):
         rows = [row for row, message in enumerate(detections) if message.header.frame_id == frame]
-        found = frames.lookup(buffer, recording.PLANNING_FRAME, frame, [stamps[row] for row in rows])
+        found = frames.lookup(buffer, robot.base_link, frame, [stamps[row] for row in rows])
         if not np.any(np.isfinite(found)):
             raise demonstration.DemonstrationError(
                 f"{path}: tag_detections are in frame '{frame}': "
-                + frames.why_not(buffer, recording.PLANNING_FRAME, frame, stamps[rows[-1]]))
+                + frames.why_not(buffer, robot.base_link, frame, stamps[rows[-1]]))
         poses[rows] = found
     return poses
 
 
-def _target(path, tag_id):
+def _target(path, tag_id, robot):
     """Mean pose of the tag in the planning frame over the bag's last detections."""
     detections = _messages(path, "tag_detections")
     end = _stamp(detections[-1]) - int(1e9 * TARGET_WINDOW)
     detections = [message for message in detections if _stamp(message) >= end]
-    camera = _camera(path, frames.load(path), detections)
+    camera = _camera(path, frames.load(path), detections, robot)
     detected = np.array([recording.tag_row(message, tag_id) for message in detections])
     known = np.all(np.isfinite(camera) & np.isfinite(detected), axis=1)
     if not known.any():
@@ -96,18 +96,19 @@ def _target(path, tag_id):
 
 
 def convert(path: str, command: str, tag_id: int = 0, cut: tuple[float, float] = (0.0, 0.0),
-            stretch: float = 1.0) -> demonstration.Demonstration:
+            stretch: float = 1.0, robot: robots.Robot | None = None) -> demonstration.Demonstration:
     """Demonstration from a bag of joint_states, tf and tag_detections: the motion less `cut` s at its ends,
-    `stretch` times as slow."""
-    target = _target(path, tag_id)
+    `stretch` times as slow. Of the default robot unless told."""
+    robot = robot or robots.load()
+    target = _target(path, tag_id, robot)
     stamps = np.array([_stamp(message) for message in _messages(path, "joint_states")], dtype=np.int64)
     buffer = frames.load(path, "/robot_state_publisher")
-    hand = frames.lookup(buffer, recording.PLANNING_FRAME, demonstration.HAND_FRAME, stamps)
+    hand = frames.lookup(buffer, robot.base_link, robot.tip_link, stamps)
     known = np.all(np.isfinite(hand), axis=1)
     if known.sum() < 2:
         raise demonstration.DemonstrationError(
-            f"{path}: tf has no pose of {demonstration.HAND_FRAME} at the stamps of joint_states: "
-            + frames.why_not(buffer, recording.PLANNING_FRAME, demonstration.HAND_FRAME, stamps[-1]))
+            f"{path}: tf has no pose of {robot.tip_link} at the stamps of joint_states: "
+            + frames.why_not(buffer, robot.base_link, robot.tip_link, stamps[-1]))
     times, hand = 1e-9 * (stamps[known] - stamps[known][0]), hand[known]
     part = moving_part(times, hand)
     times, hand = times[part], hand[part]
@@ -116,14 +117,15 @@ def convert(path: str, command: str, tag_id: int = 0, cut: tuple[float, float] =
         raise demonstration.DemonstrationError(
             f"{path}: nothing is left of {times[-1] - times[0]:.3g} s of motion, {cut[0] + cut[1]:g} s are cut off")
     times, poses = resample(stretch * times[kept], hand[kept], RATE)
-    return demonstration.make(times, poses, target, command)
+    return demonstration.make(times, poses, target, command, robot)
 
 
-def teach(folder: str, seed: int, detour: Sequence[float] = (0.0, 0.0)) -> str:
+def teach(folder: str, seed: int, detour: Sequence[float] = (0.0, 0.0),
+          robot: str = robots.DEFAULT) -> str:
     """Records folder/teach.bag with the arm led to the target, by a detour to the right and forward, m."""
     lesson = session.Session(
         folder=folder, bag="teach.bag", launch_file=session.packaged("launch", "teach.launch"),
-        launch_arguments=[f"seed:={seed}", "paused:=true", f"detour_right:={detour[0]}",
+        launch_arguments=[f"robot:={robot}", f"seed:={seed}", "paused:=true", f"detour_right:={detour[0]}",
                           f"detour_forward:={detour[1]}"], topics=RECORDED,
         links=LINKS | session.recorder_links(topics.SENSORS, "platform_sim"),
         driver="platform_sim")
@@ -146,6 +148,8 @@ def teach_main(words: list[str]) -> int:
         prog="run_teach", description="Leads the simulated arm to the target by the hand and "
         "writes the demonstration.")
     parser.add_argument("out", help="demonstration file to write")
+    parser.add_argument("--robot", default=robots.DEFAULT, metavar="NAME|FOLDER",
+                        help="one of " + ", ".join(robots.names()) + ", or the path of a folder like those")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--detour", type=float, nargs=2, default=(0.0, 0.0), metavar=("RIGHT", "FORWARD"),
                         help="bends the way out to the right and toward the tag, m")
@@ -153,14 +157,20 @@ def teach_main(words: list[str]) -> int:
     options = parser.parse_args(words)
 
     def action():
+        try:
+            robot = robots.load(options.robot)
+        except robots.RobotError as error:
+            raise args.ArgumentError(str(error)) from None
         with contextlib.ExitStack() as stack:
             folder = os.path.abspath(
                 options.folder or stack.enter_context(tempfile.TemporaryDirectory()))
             os.makedirs(os.path.join(folder, "log"), exist_ok=True)
             detour = "".join(f" {length:g}" for length in options.detour) if any(options.detour) else ""
-            command = (f"rosrun prf_experiments run_teach --seed {options.seed}"
+            command = ("rosrun prf_experiments run_teach"
+                       + (f" --robot {robot.name}" if robot.name != robots.DEFAULT else "")
+                       + f" --seed {options.seed}"
                        + (f" --detour{detour}" if detour else "") + " OUT")
-            result = convert(teach(folder, options.seed, options.detour), command)
+            result = convert(teach(folder, options.seed, options.detour, robot.name), command, robot=robot)
         demonstration.write(options.out, result)
         print(f"{len(result.times)} poses over {result.times[-1]:.1f} s: {options.out}")
         return 0

@@ -11,6 +11,8 @@ from prf_experiments.judge import invariants, judge, reaction
 from prf_experiments.record import recording
 from prf_experiments.record.recording import FaultEvent, Joints
 
+from prf_experiments import robots
+
 DT = 1e-9 * recording.TICK
 LIMITS = invariants.Limits(np.full(7, -2.0), np.full(7, 2.0), np.full(7, 0.6), 4.0, 0.2)
 
@@ -39,7 +41,7 @@ class Invariants(unittest.TestCase):
         self.assertAlmostEqual(found.figures["largest_joint_step_rad"], 0.005)
 
     def test_the_packages_limits_can_be_read(self):
-        found = invariants.limits()
+        found = invariants.limits(robots.load())
         self.assertEqual(found.acceleration, 4.0)
         self.assertTrue(np.all(found.velocity > 0.5))
         self.assertTrue(np.isinf(found.upper[0]) and np.isfinite(found.upper[1]))

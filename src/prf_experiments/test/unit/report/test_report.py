@@ -15,12 +15,12 @@ from prf_experiments.record import recording
 from prf_experiments.report import measures, page, pictures, report
 from prf_experiments.teach import demonstration
 
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 
 VOID = {"meta", "br", "hr", "img"}
 SKILL = demonstration.make(
     0.1 * np.arange(20), np.hstack([np.linspace([0.4, -0.2, 0.4], [0.6, 0.0, 0.6], 20),
-                                    np.tile([0, 0, 0, 1.0], (20, 1))]), geometry.IDENTITY, "test")
+                                    np.tile([0, 0, 0, 1.0], (20, 1))]), geometry.IDENTITY, "test", robots.load())
 
 
 class Balance(HTMLParser):

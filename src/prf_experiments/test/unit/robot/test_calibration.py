@@ -60,7 +60,7 @@ class Calibration(unittest.TestCase):
 
     # Fault 54: joint names or positions in the bag that are not the arm's -> refused with what was found, no file
     def test_reads_no_joints_that_are_not_the_arms(self):
-        names = recording.ARM_JOINTS
+        names = calibrate.ROBOT.joints
         for lacking in ([names[0]], [*names[:-1], "other"]):
             with self.subTest(lacking):
                 states = sensor_msgs.msg.JointState(name=lacking, position=[0.1] * len(lacking))

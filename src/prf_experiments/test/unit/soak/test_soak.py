@@ -63,7 +63,7 @@ class Measures(unittest.TestCase):
 
     def test_what_is_not_right_is_told(self):
         data = synthetic.make_recording(40.0)
-        data.contacts = [Contact(int(data.ticks[300]), ("box", "j2s7s300_link_hand"), 60.0)]
+        data.contacts = [Contact(int(data.ticks[300]), ("box", "j2s7s300_link_7"), 60.0)]
         watch = soak.Watch("/nowhere", None, None)
         summary = soak.evaluate(data, watch, [], 60.0, ["decision_node"])
         told = soak.text(summary)

@@ -7,7 +7,7 @@ import numpy as np
 from prf_experiments.teach import demonstration
 from scipy.spatial.transform import Rotation
 
-from prf_experiments import geometry
+from prf_experiments import geometry, robots
 
 HEADER = """# frame: base
 # child_frame: hand
@@ -47,7 +47,7 @@ class Demonstration(unittest.TestCase):
     def test_survives_writing_and_reading(self):
         turned = Rotation.from_euler("y", 0.1 * np.arange(20))
         poses = geometry.make(0.5 + 0.01 * np.random.default_rng(1).normal(size=(20, 3)), turned)
-        made = demonstration.make(0.05 * np.arange(20), poses, geometry.IDENTITY, "a: test")
+        made = demonstration.make(0.05 * np.arange(20), poses, geometry.IDENTITY, "a: test", robots.load())
         demonstration.write(self.path, made)
         read = demonstration.read(self.path)
         np.testing.assert_allclose(read.poses, poses, atol=1e-9)
@@ -79,7 +79,7 @@ class Demonstration(unittest.TestCase):
         poses = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (9, 1))
         poses[:, 0] = 0.1 * np.arange(9)
         with self.assertRaisesRegex(demonstration.DemonstrationError, "9 rows, must be at least 10"):
-            demonstration.make(0.1 * np.arange(9), poses, geometry.IDENTITY, "test")
+            demonstration.make(0.1 * np.arange(9), poses, geometry.IDENTITY, "test", robots.load())
 
     def test_refuses_values_that_are_not_finite(self):
         self.assert_refused(":10: column 'x' is 'nan'", self.with_row(5, "0.5,nan,0,0,0,0,0,1"))
