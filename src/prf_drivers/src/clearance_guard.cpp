@@ -47,8 +47,7 @@ Allowance allowed_by(const ClearanceParams& params, const Clearances& now, const
   for (const auto& [what, distance] : rest) {
     const auto before = now.find(what);
     const double none = std::numeric_limits<double>::infinity();
-    const Allowance found =
-        allowed(params, what, before == now.end() ? none : before->second, distance);
+    Allowance found = allowed(params, what, before == now.end() ? none : before->second, distance);
     if (found.hold) return found;
     if (found.speed < slowest.speed) slowest = found;
   }

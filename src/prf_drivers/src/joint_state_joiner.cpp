@@ -77,7 +77,13 @@ JointStateJoiner::Added JointStateJoiner::add(std::size_t source, const JointSam
 // On the grid of the period, with half a period for the jitter of the stamps.
 bool JointStateJoiner::is_due(Stamp stamp, StampOrder order) {
   const prf_core::Duration period = from_seconds(params_.period);
-  if (order == StampOrder::kBackwardJump) due_.reset();
+  if (order == StampOrder::kBackwardJump) {
+    due_.reset();
+    filled_.reset();
+    given_.reset();
+  }
+  // A message comes later than its stamp: ticks that were filled in meanwhile are ahead of it.
+  if (filled_ && stamp < *filled_ + period / 2) return false;
   if (due_ && stamp < *due_ - period / 2) return false;
   const bool off_grid = !due_ || stamp > *due_ + period / 2;
   due_ = (off_grid ? stamp : *due_) + period;
@@ -87,7 +93,9 @@ bool JointStateJoiner::is_due(Stamp stamp, StampOrder order) {
 
 std::optional<JointSample> JointStateJoiner::tick_at(Stamp now) {
   const std::vector<JointSample>& lead = sources_.front().samples;
-  if (lead.empty() || (given_ && now <= *given_)) return std::nullopt;
+  if (lead.empty() || (given_ && now < *given_ + from_seconds(params_.period) / 2)) {
+    return std::nullopt;
+  }
   const double ahead = prf_core::to_seconds(now - lead.back().stamp);
   if (!(ahead >= 0.0 && ahead <= params_.max_age)) return std::nullopt;
   JointSample tick = lead.back();
@@ -95,7 +103,7 @@ std::optional<JointSample> JointStateJoiner::tick_at(Stamp now) {
   for (std::size_t i = 0; i < tick.names.size(); ++i) {
     tick.positions[i] += ahead * tick.velocities[i];
   }
-  given_ = now;
+  given_ = filled_ = now;
   return joined(std::move(tick));
 }
 

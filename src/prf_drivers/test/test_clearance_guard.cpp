@@ -44,7 +44,7 @@ TEST(ClearanceGuard, DoesNotTakeLeavingOneForLeavingAnother) {
 // Fault 1: a distance that is not a number -> the arm is held
 TEST(ClearanceGuard, HoldsAtADistanceThatIsNoNumber) { EXPECT_TRUE(ask(0.1, std::nan("")).hold); }
 
-// Fault 44: a motion that would fold the arm into itself -> it is slowed down, then held
+// Fault 56: a motion that would fold the arm into itself -> it is slowed down, then held
 TEST(SelfCollisionGuard, HoldsTheArmOffItself) {
   SelfCollisionGuard guard(shapes(), three(0, 0, 0), kParams);
   const Measured measured(three(0.0, 1.9, 1.9));
@@ -65,7 +65,7 @@ TEST(SelfCollisionGuard, LeavesOutWhatTheReadyPostureLetsTouch) {
   EXPECT_EQ(guard.ignored(), std::vector<std::string>{"one and three"});
 }
 
-// Fault 44: a motion out of the workspace or into a forbidden box -> held before, free to leave
+// Fault 56: a motion out of the workspace or into a forbidden box -> held before, free to leave
 TEST(BoxGuard, HoldsTheArmInsideAndOutside) {
   const Box workspace{{-1.2, -1.2, -1.0}, {1.2, 1.2, 1.0}};
   BoxGuard guard(shapes(), workspace, {{{0.9, 0.4, -0.1}, {1.0, 0.6, 0.1}}}, kParams);

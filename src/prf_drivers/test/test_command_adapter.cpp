@@ -277,7 +277,7 @@ TEST(CommandAdapter, ObeysItsGuards) {
   }
 }
 
-// Fault 44: a guard forbids the first motion of all -> a driver of positions is sent where the arm
+// Fault 47: a guard forbids the first motion of all -> a driver of positions is sent where the arm
 // is
 TEST(CommandAdapter, HoldsAnArmThatMayNotBeginWhereItIs) {
   auto guard = std::make_shared<FixedGuard>();

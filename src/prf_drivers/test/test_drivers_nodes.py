@@ -132,7 +132,7 @@ class DriversNodes(unittest.TestCase):
         self.press()
         self.assertTrue(self.moves())
 
-    # Fault 44: an effort beyond its learnt bounds -> protective stop, told in the status, until reset
+    # Fault 56: an effort beyond its learnt bounds -> protective stop, told in the status, until reset
     def test_7_stops_at_an_effort_beyond_its_bounds(self):
         self.press()
         self.assertTrue(self.moves())

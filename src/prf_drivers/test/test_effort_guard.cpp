@@ -20,7 +20,7 @@ Allowance ask(EffortGuard& guard, prf_core::Stamp stamp, const Eigen::VectorXd& 
   return guard.allow({stamp, measured, Eigen::Vector2d::Zero()});
 }
 
-// Fault 44: the arm pushes against something -> protective stop, until it is reset
+// Fault 56: the arm pushes against something -> protective stop, until it is reset
 TEST(EffortGuard, StopsWhenAnEffortStaysBeyondItsBounds) {
   EffortGuard guard(params(), {"left", "right"});
   EXPECT_FALSE(ask(guard, milliseconds(0), Eigen::Vector2d(4.9, -1.9)).hold);

@@ -17,7 +17,7 @@ Allowance ask(double from, double rest) {
       {prf_core::Stamp(1), Measured(Eigen::Vector2d(9.0, from)), Eigen::Vector2d(99.0, rest)});
 }
 
-// Fault 44: a joint that would leave its bounds -> held, with the joint's name
+// Fault 37: a joint that would leave its bounds -> held, with the joint's name
 TEST(JointRangeGuard, HoldsAJointThatWouldLeaveItsBounds) {
   EXPECT_FALSE(ask(5.3, 5.49).hold);
   const Allowance held = ask(5.3, 5.51);

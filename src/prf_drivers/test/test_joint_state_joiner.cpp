@@ -71,6 +71,19 @@ TEST(JointStateJoiner, FillsInBetweenSamplesOfASlowLeadWithTheirVelocity) {
   EXPECT_FALSE(joiner.tick_at(kBegin + milliseconds(40))) << "twice";
 }
 
+// Fault 27: a slow driver's message comes after a tick was filled in that is ahead of it -> no tick
+// goes back
+TEST(JointStateJoiner, GivesNoTickBehindOneThatWasFilledIn) {
+  JointStateJoiner joiner(params());
+  ASSERT_TRUE(joiner.add(kArm, sample(milliseconds(0), "arm", 1.0, 0.5)).tick);
+  ASSERT_TRUE(joiner.tick_at(kBegin + milliseconds(50)));
+  EXPECT_FALSE(joiner.add(kArm, sample(milliseconds(48), "arm", 1.1, 0.5)).tick);
+  EXPECT_FALSE(joiner.tick_at(kBegin + milliseconds(52))) << "half a period is the least";
+  const auto next = joiner.tick_at(kBegin + milliseconds(60));
+  ASSERT_TRUE(next);
+  EXPECT_NEAR(next->positions[0], 1.1 + 0.5 * 0.012, 1e-12) << "of the newer message";
+}
+
 // Fault 27: the arm's joint states stop -> no ticks after max_age, so that the controller is silent
 TEST(JointStateJoiner, DoesNotGuessBeyondTheAgeOfTheLead) {
   JointStateJoiner joiner(params());

@@ -83,7 +83,7 @@ std::string refusal(const std::string& urdf, const std::string& base,
   return "accepted";
 }
 
-// Fault 49: a robot description without the arm, or with meshes -> refused at the start, named
+// Fault 45: a robot description without the arm, or with meshes -> refused at the start, named
 TEST(RobotShapes, RefusesWhatItCannotPlace) {
   EXPECT_NE(refusal("<robot", "base", kSmallArm).find("must be a URDF"), std::string::npos);
   EXPECT_NE(refusal(small_arm(), "nowhere", kSmallArm).find("base_link"), std::string::npos);

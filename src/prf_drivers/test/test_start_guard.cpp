@@ -19,7 +19,7 @@ Allowance ask(StartGuard& guard, Stamp stamp, double a, double b) {
   return guard.allow({stamp, Measured(Eigen::Vector2d(a, b)), Eigen::Vector2d(a, b)});
 }
 
-// Fault 44: motion begins with the arm far from its ready posture -> it is held, the joint named
+// Fault 47: motion begins with the arm far from its ready posture -> it is held, the joint named
 TEST(StartGuard, BeginsNearTheReadyPostureOnly) {
   StartGuard guard(params(), {"left", "right"});
   const Allowance far = ask(guard, Stamp(0), 1.1, -0.5);

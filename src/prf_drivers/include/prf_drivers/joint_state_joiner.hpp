@@ -72,8 +72,9 @@ class JointStateJoiner {
 
   JointJoinerParams params_;
   std::vector<Source> sources_;
-  std::optional<prf_core::Stamp> due_;    // of the next tick
-  std::optional<prf_core::Stamp> given_;  // newest tick
+  std::optional<prf_core::Stamp> due_;     // of the next tick
+  std::optional<prf_core::Stamp> given_;   // newest tick
+  std::optional<prf_core::Stamp> filled_;  // newest tick between messages
 };
 
 }  // namespace prf_drivers

@@ -62,7 +62,7 @@ class Estimated(unittest.TestCase):
         np.testing.assert_allclose(height, estimated.STANDING, atol=1e-9)
         np.testing.assert_allclose(tilt, 0.0, atol=1e-6)
 
-    # Fault 38: a bag without ground truth in which no tag, no arm or no camera is known -> one line
+    # Fault 54: a bag without ground truth in which no tag, no arm or no camera is known -> one line
     def test_refuses_a_bag_that_tells_nothing(self):
         arms, seen = moving(0.1), Poses(TICKS[:2], np.tile(self.tag, (2, 1)))
         unknown = Joints(TICKS, np.full((len(TICKS), 7), np.nan), arms.velocities)

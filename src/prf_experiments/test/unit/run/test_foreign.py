@@ -75,7 +75,7 @@ class Foreign(unittest.TestCase):
         self.assertAlmostEqual(ticks[57].velocity[2], 0.1, places=6)
         self.assertEqual(len(self.read("/clock")), 199)
 
-    # Fault 38: a robot's bag without a topic, with another type, or nothing usable -> one line that names it
+    # Fault 54: a robot's bag without a topic, with another type, or nothing usable -> one line that names it
     def test_refuses_what_cannot_be_played(self):
         def refusal(source=SOURCE):
             with self.assertRaises(bags.BagError) as caught:
@@ -104,7 +104,7 @@ class Foreign(unittest.TestCase):
             bag.write("/chatter", String("hello"))
         self.assertIn("no message of", refusal())
 
-    # Fault 37: a bag that was not closed -> one line, with the command that mends it
+    # Fault 54: a bag that was not closed -> one line, with the command that mends it
     def test_says_how_an_unindexed_bag_is_mended(self):
         self.write()
         with open(self.bag, "r+b") as stream:
