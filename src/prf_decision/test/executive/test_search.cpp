@@ -33,7 +33,7 @@ struct Hiding {
     const bool seen = !hidden && sees(world.hand, target);
     if (seen) world.position = target;
     world.status = seen ? TargetStatus::kTracking : TargetStatus::kLost;
-    const ExecutiveResult result = world.tick();
+    ExecutiveResult result = world.tick();
     if (result.progress.state == ExecutionState::kSearch) {
       nearest = std::min(nearest, (world.hand.position - world.position).norm());
     }
@@ -89,6 +89,8 @@ TEST(SkillSearch, GivesUpAfterItsTimeAndSearchesAnewForTheNextGoal) {
   EXPECT_EQ(result.progress.reason, "target not found within 8.00 s");
   hiding.world.executive().begin(SkillGoal());
   hiding.until(ExecutionState::kSearch, 1);
+  for (ticks = 0; hiding.tick().progress.state == ExecutionState::kSearch && ticks < 2000;) ++ticks;
+  EXPECT_NEAR(ticks * to_seconds(kTickPeriod), 8, 0.1);
 }
 
 TEST(SkillSearch, StandsStillWhereThePredictorIsSilentOrTheSkillIsAdaptedOnce) {
