@@ -105,7 +105,9 @@ TEST(SkillSearch, StandsStillWhereThePredictorIsSilentOrTheSkillIsAdaptedOnce) {
   World world(once);
   world.until(ExecutionState::kForward, 1);
   world.status = TargetStatus::kLost;
-  for (int k = 0; k < 300; ++k) EXPECT_NE(world.tick().progress.state, ExecutionState::kSearch);
+  world.until(ExecutionState::kDone, 20);
+  world.executive().begin(SkillGoal());  // begins at the start, with a target that is out of sight
+  for (int k = 0; k < 600; ++k) EXPECT_NE(world.tick().progress.state, ExecutionState::kSearch);
 }
 
 TEST(SkillSearch, EndsByTheClientsWishAndTheTimeLimit) {
@@ -134,7 +136,7 @@ TEST(SkillSearch, GoesOnFromWhereAHandThatDoesNotFollowIs) {
     farthest = std::max(
         farthest, result.setpoint->pose.orientation.angularDistance(hiding.world.hand.orientation));
   }
-  EXPECT_LT(farthest, 0.45);
+  EXPECT_LT(farthest, 0.37);
   EXPECT_EQ(result.progress.state, ExecutionState::kStopped);
 }
 
