@@ -59,7 +59,7 @@ TEST(World, ReportsTheContactOfAHandPushedIntoTheBox) {
 }
 
 TEST(World, ReportsTheContactOfTheForearmWithTheBody) {
-  WorldParams config;
+  WorldParams config = in_world("jaco_v60");
   config.arm_start << 0.0, 3.7, 0.0, 0.95, 0.0, 2.0, 0.0;
   World world(robot_urdf(), config);
   ArmVector goal = config.arm_start;
@@ -128,7 +128,7 @@ WorldParams with(const DriverModel& model) {
 DriverModel kinova() { return {Takes::kVelocities, 0.02, 0.01, 2000, 0.02, 0.0}; }
 
 DriverPoint velocity(double speed) {
-  DriverPoint point;
+  DriverPoint point{ArmVector::Zero(7), ArmVector::Zero(7), 0.0};
   point.velocities = ArmVector::Constant(7, speed);
   return point;
 }
@@ -161,7 +161,7 @@ TEST(WorldDriver, OfAVelocityGroupKeepsTheNewestVelocityForEver) {
 
 TEST(WorldDriver, OfPositionsLagsBehindByItsServo) {
   World world(robot_urdf(), with({Takes::kPositions, 0.008, 0.0, 10, 0.0, 50.0}));
-  DriverPoint point;
+  DriverPoint point{ArmVector::Zero(7), ArmVector::Zero(7), 0.0};
   point.positions = folded_arm().arm_start + ArmVector::Constant(7, 0.01);
   world.command_driver(point);
   run(world, 0.008 + 0.02);  // one time constant
@@ -172,7 +172,7 @@ TEST(WorldDriver, OfPositionsLagsBehindByItsServo) {
 
 TEST(WorldDriver, OfTrajectoriesReachesThePointInItsTime) {
   World world(robot_urdf(), with({Takes::kTrajectories, 0.008, 0.0, 10, 0.0, 100.0}));
-  DriverPoint point;
+  DriverPoint point{ArmVector::Zero(7), ArmVector::Zero(7), 0.0};
   point.positions = folded_arm().arm_start + ArmVector::Constant(7, 0.1);
   point.duration = 0.5;
   world.command_driver(point);
