@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "v60_world.hpp"
+
 namespace platform_sim {
 namespace {
 
@@ -39,7 +41,7 @@ TEST(Variation, FillsItsSpreadEvenlyAndNeverLeavesIt) {
 
 TEST(Variation, AlwaysGivesAValidWorld) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    WorldParams config;
+    WorldParams config = in_world("jaco_v60");
     Variation::draw(seed, 1.0).apply_to(config);
     EXPECT_NO_THROW(config.validate()) << seed;
   }
