@@ -45,10 +45,10 @@ class TargetSearch {
  public:
   static constexpr double kSlimmest = 0.5;
   static constexpr double kAside = 0.6;
-  static constexpr double kMostAside = 0.35;                      // m
-  static constexpr double kNear = 0.05;                           // m, of a look
-  static constexpr double kThere = 0.1;                           // rad, of a look
-  static constexpr double kFarthest = 1.5;                        // rad, of any joint to a look
+  static constexpr double kMostAside = 0.0;  // m; 0: moving aside touched the box
+  static constexpr double kNear = 0.05;      // m, of a look
+  static constexpr double kThere = 0.1;      // rad, of a look
+  static constexpr double kFarthest = 1.5;   // rad, of any joint to a look
   static constexpr Duration kPatience = std::chrono::seconds(3);  // with one look
 
   // `stand`: the hand at the start of the skill; `goal_in_target` tells how the camera looks from
