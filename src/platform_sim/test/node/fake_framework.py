@@ -45,6 +45,13 @@ INPUTS = {
 }
 
 
+def ready():
+    """The committed robot's ready posture, rad, in which the arm starts."""
+    folder = os.path.join(rospkg.RosPack().get_path("prf_robots"), "robots", config()["robot"])
+    with open(os.path.join(folder, "robot.yaml"), encoding="utf-8") as file:
+        return yaml.safe_load(file)["ready"]
+
+
 def config():
     """The committed configuration of the node."""
     path = os.path.join(rospkg.RosPack().get_path("platform_sim"), "config", "platform_sim.yaml")
@@ -88,7 +95,7 @@ class FakeFramework:
         self.deaf_ticks, self.disturb = deaf_ticks, disturb
         self.mute, self.mute_from = mute, mute_from
         self.done_at, self.forecast = done_at, forecast
-        self.positions = positions or config()["initial_positions"]
+        self.positions = positions or ready()
         self.messages: dict[str, list] = {name: [] for name in OUTPUTS}
         self.digest = {name: hashlib.sha256() for name in OUTPUTS}
         silent = set(absent) | (set(INPUTS) - {"guide/wrench"} if guide else {"guide/wrench"})

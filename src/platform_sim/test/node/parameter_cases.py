@@ -14,14 +14,13 @@ class ParameterTest(unittest.TestCase):
         ("scenario", "boat"), ("motion", "wild"), ("motion", 3), ("motion", "absent.csv"),
         ("body_motion", "absent.csv"), ("body_motion", 0), ("gait", "gallop"), ("seed", -1),
         ("seed", 1.5), ("variation", 1.5), ("arm_latency", 0.5),
-        ("arm_mode", "floppy"), ("initial_positions", [0.0] * 6),
-        ("initial_positions", [float("nan")] * 7), ("initial_positions", [0.0] * 7),
+        ("arm_mode", "floppy"), ("robot", "r2d2"), ("robot", "/nowhere"), ("robot", 7),
         ("lockstep", "yes"), ("paused", 1), ("response_timeout", 0.0),
         ("response_timeout", float("inf")), ("real_time_factor", -1.0), ("time_limit", 0.0),
         ("time_limit", float("nan")), ("end_delay", -1.0), ("no_such_parameter", 1),
         ("time_limit", 1e308), ("time_limit", 5e-324), ("real_time_factor", 5e-324),
         ("real_time_factor", 1e308), ("end_delay", 1e308), ("response_timeout", 5e-324),
-        ("arm_latency", float("nan")), ("variation", 1e308), ("initial_positions", [1e308] * 7),
+        ("arm_latency", float("nan")), ("variation", 1e308),
     ]
     CAMERA_CATALOGUE = [
         ("noise", -4.0), ("latency", 0.6), ("exposure", 0.1), ("light_change", 1.0),

@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from prf_msgs.msg import ExecutionProgress
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from fake_framework import ARM, INPUTS, NODE, FakeFramework, Simulator, config
+from fake_framework import ARM, INPUTS, NODE, FakeFramework, Simulator, config, ready
 from parameter_cases import ParameterTest  # noqa: F401 - run as part of this module
 
 SHORT = {"time_limit": 0.5, "response_timeout": 5.0}
@@ -58,7 +58,7 @@ class LockstepTest(unittest.TestCase):
             self.assertTrue(all(math.isfinite(value) for value in values))
 
     def test_moves_the_arm_as_commanded(self):
-        target = list(config()["initial_positions"])
+        target = list(ready())
         target[6] += 0.1
         with FakeFramework(positions=target) as peer:
             code, output = peer.run(**{**SHORT, "time_limit": 1.0})
@@ -88,7 +88,7 @@ class LockstepTest(unittest.TestCase):
             code, output = peer.run(**SHORT)
         self.assertEqual(code, 0, output)
         self.assertIn("joint_command refused, the arm holds: position of joint 1 = nan", output)
-        for start, position in zip(config()["initial_positions"],
+        for start, position in zip(ready(),
                                    peer.messages["joint_states"][-1].position[12:]):
             self.assertAlmostEqual(position, start, delta=0.005)
 
@@ -100,7 +100,7 @@ class LockstepTest(unittest.TestCase):
 
     # Fault 10, 40, 43, 51: responses far ahead, old, doubled, NaN, huge, foreign -> dropped, run goes on
     def test_goes_on_after_wrong_responses(self):
-        target = list(config()["initial_positions"])
+        target = list(ready())
         target[6] += 0.1
 
         def disturb(peer, stamp):

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "platform_sim/put_robot.hpp"
 #include "v60_gait/leg_sensors.hpp"
 #include "v60_gait/operator.hpp"
 

@@ -16,7 +16,7 @@ from prf_experiments.run.arguments import meant
 
 TOPICS = ("joint_states", "camera/image_raw", "camera/camera_info", "tag_detections", "tf",
           "target/forecast", "obstacles", "skill/trajectory", "execution/progress",
-          "execution/setpoint", "joint_command", "control/status")
+          "execution/setpoint", "joint_command", "control/status", "speed_scale")
 NODES = ("robot_state_publisher", "tag_detector", "target_predictor", "decision", "skill_planner",
          "arm_controller", "platform_sim", "recorder")
 SENSED = ("joint_states", "camera/image_raw", "camera/camera_info")
