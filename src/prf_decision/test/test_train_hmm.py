@@ -144,7 +144,7 @@ class TrainHmm(unittest.TestCase):
         right = sum(matrix[i][i] for i in range(3))
         self.assertGreater(right, 0.9 * 1800)
         self.assertAlmostEqual(written["held_out"]["learnt"]["accuracy"], right / 1800)
-        self.assertGreater(written["held_out"][HMM]["mean_recall"], 0.9)
+        self.assertGreater(written["held_out"][HMM]["mean_recall"], 0.85)
         with open(out, encoding="utf-8") as file:
             self.assertIn("by\n#   a command\n", file.read())
 

@@ -273,7 +273,7 @@ TEST(CommandAdapter, ObeysItsGuards) {
     EXPECT_EQ(held[0].hold, "at a wall");
     EXPECT_EQ(held[0].code, MotionCode::kHaltsForCollision);
     EXPECT_EQ(held[0].stamp, tick(i));
-    EXPECT_EQ(held[0].velocity[0], std::max(0.0, 0.15 - 0.04 * i));
+    EXPECT_NEAR(held[0].velocity[0], std::max(0.0, 0.15 - 0.04 * i), 1e-12);
   }
 }
 

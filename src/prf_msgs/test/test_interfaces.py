@@ -23,7 +23,8 @@ class Table(unittest.TestCase):
     table = interfaces.load()
 
     def test_a_bag_holds_these_topics_in_this_order(self):
-        self.assertEqual(self.table.recorded, ["clock", *SENSORS, "obstacles", *TRUTH, *OUTPUTS, "tf",
+        self.assertEqual(self.table.recorded, ["clock", *SENSORS, "obstacles", "speed_scale",
+                                               *TRUTH, *OUTPUTS, "tf",
                                                "tf_static", "diagnostics", "rosout",
                                                "trial/description", "fault/events"])
 
@@ -62,7 +63,7 @@ class Table(unittest.TestCase):
     def test_every_sender_and_reader_is_a_node_of_the_table(self):
         nodes = {node.name for node in self.table.nodes}
         others = {"every node", "session_observer", "teach_guide", "scene_markers",
-                  "fault_injector"}
+                  "fault_injector", "driver_adapter"}
         for topic in self.table.topics:
             self.assertLessEqual(set(topic.senders), nodes | others, topic.name)
             self.assertLessEqual(set(topic.readers), nodes, topic.name)

@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from prf_msgs.msg import ExecutionProgress
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from fake_framework import ARM, INPUTS, NODE, FakeFramework, Simulator, config, ready
+from fake_framework import ARM, INPUTS, NODE, FakeFramework, Simulator, ready
 from parameter_cases import ParameterTest  # noqa: F401 - run as part of this module
 
 SHORT = {"time_limit": 0.5, "response_timeout": 5.0}

@@ -48,7 +48,7 @@ TEST_P(OtherArms, GoToTheNearestPoseOfOneOutOfReach) {
   setpoint.hand_in_base = robot_.kinematics->forward(robot_.ready);
   setpoint.hand_in_base.translation().x() += 2.0;
   FollowerStep step;
-  for (int tick = 0; tick < 300; ++tick) step = follower.follow(setpoint, kDt);
+  for (int tick = 0; tick < 600; ++tick) step = follower.follow(setpoint, kDt);
   EXPECT_EQ(step.goal, GoalKind::kNearest);
   EXPECT_LE(step.motion.state.velocity.cwiseAbs().maxCoeff(), 0.01);
 }

@@ -113,7 +113,7 @@ class SkillActionNode(GoalTest):
         state, result = self.result(handle)
         self.assertEqual((state, result.code),
                          (GoalStatus.ABORTED, ExecuteSkillResult.TARGET_LOST))
-        self.assertIn("no measurement of the target", result.text)
+        self.assertIn("target not found within 2.00 s", result.text)
 
     # Fault 38: arm_controller killed in FORWARD, never restarted -> paused, given up, never SUCCEEDED
     def test_gives_up_when_the_controller_dies(self):
