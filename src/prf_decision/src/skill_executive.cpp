@@ -149,8 +149,7 @@ bool SkillExecutive::can_search(const Tick& tick) const {
   if (reference_.cursor() > 0 || following_.is_off() || !last || last->predictions.empty()) {
     return false;
   }
-  const double most = params_.guards.following.path.position + TargetSearch::kMostAside;
-  return reference_.is_on_skill(*tick.hand, {most, 2 * M_PI});
+  return reference_.is_on_skill(*tick.hand, {params_.guards.following.path.position, 2 * M_PI});
 }
 
 // Around where the target is forecast now; beyond the forecast's reach, where it ends. From where

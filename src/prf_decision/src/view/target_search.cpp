@@ -72,10 +72,9 @@ Pose TargetSearch::pose_of(const SearchParams& params, const Look& look) const {
   const double theta = 2 * M_PI * look.place / places(params.spacing, look.loop);
   const Vector3d toward = std::cos(theta) * major_ + std::sin(theta) * sight_.cross(major_);
   const double off = distance_ * std::tan(angle_of(params, look));
-  const double aside = std::min(kAside * off, kMostAside);
-  const Vector3d along = distance_ * sight_ + (off - aside) * toward;
+  const Vector3d along = distance_ * sight_ + off * toward;
   const Quaterniond turn = Quaterniond::FromTwoVectors(sight_, along);
-  return {centre_.position + aside * toward, (turn * centre_.orientation).normalized()};
+  return {centre_.position, (turn * centre_.orientation).normalized()};
 }
 
 TargetSearch::Look TargetSearch::after(const SearchParams& params, const Look& look) const {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Looks for a target that is out of sight. The hand looks first at c, where the target was forecast
 // last, then at places around it, across the line of sight, in loops that are each wider by
-// `spacing`. With the place it moves aside, because a target inside something is seen from before
-// it only; so it never comes nearer to c than where it stands. With d from the stand to c, place j
-// of loop k is
+// `spacing`. It only turns: moving aside, to see into the box from elsewhere, touched the box where
+// the target was believed to be elsewhere. With d from the stand to c, place j of loop k is
 //
 //   off c      o = d tan(rho),  rho = k spacing s(theta_j), toward the azimuth theta_j
-//   the hand   min(kAside o, kMostAside) off its stand toward the same azimuth, and looks at it
 //   s(theta)   sqrt(u' C u / largest), at least kSlimmest: C the covariance of c across the line of
 //              sight, u the unit vector of theta; so the loops are longest where c is least certain
 //
@@ -44,11 +42,9 @@ struct SearchInput {
 class TargetSearch {
  public:
   static constexpr double kSlimmest = 0.5;
-  static constexpr double kAside = 0.6;
-  static constexpr double kMostAside = 0.0;  // m; 0: moving aside touched the box
-  static constexpr double kNear = 0.05;      // m, of a look
-  static constexpr double kThere = 0.1;      // rad, of a look
-  static constexpr double kFarthest = 1.5;   // rad, of any joint to a look
+  static constexpr double kNear = 0.05;                           // m, of a look
+  static constexpr double kThere = 0.1;                           // rad, of a look
+  static constexpr double kFarthest = 1.5;                        // rad, of any joint to a look
   static constexpr Duration kPatience = std::chrono::seconds(3);  // with one look
 
   // `stand`: the hand at the start of the skill; `goal_in_target` tells how the camera looks from
