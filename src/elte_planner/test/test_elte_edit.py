@@ -153,7 +153,7 @@ class Command(unittest.TestCase):
         self.refuse("needs --topic", self.path("none.bag"))
         self.refuse("none.bag", self.path("none.bag"), "--topic", "hand")
         bad = [
-            ("null", "a problem must be an object"), ("{", "Expecting"), ("[1]", "must be an object"),
+            ("null", "a problem is None, must be an object"), ("{", "Expecting"), ("[1]", "must be an object"),
             ('{"zeta": [[0]]}', "lacks 'wE'"),
             ('{"zeta": [[0],[1]], "wE": 0, "wR": 0}', "at least 3"),
             ('{"zeta": [[0],[1,2],[3]], "wE": 0, "wR": 0}', "sequence"),
